@@ -1,0 +1,1 @@
+//! Points that can be found again: SURF and the matching of its descriptors.

@@ -1,0 +1,1 @@
+//! 3D points from images.

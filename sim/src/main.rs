@@ -1,0 +1,3 @@
+//! The `sunblind` command.
+
+fn main() {}

@@ -1,0 +1,85 @@
+//! What a run leaves behind in memory: the input of `evaluation` and `report`.
+
+use nalgebra::{Isometry3, Matrix6};
+use sunblind_estimator::image::{Image, RgbImage};
+use sunblind_estimator::odometry::FeatureTrack;
+use sunblind_estimator::{Health, Mode, Timestamp};
+
+use crate::evaluation::StampedPose;
+
+/// One replay of one recording by one or more localisers.
+pub struct RunLog {
+    /// The recording's name: its folder's.
+    pub recording: String,
+    /// What a reader should know first, one sentence each ("no calibration.toml: the Kinect's defaults are assumed").
+    pub warnings: Vec<String>,
+    /// The truth at the frames' times (interpolated), in time order; empty when the recording has none.
+    pub truth: Vec<StampedPose>,
+    /// One a localiser; the first is the one that is judged.
+    pub tracks: Vec<Track>,
+    /// Images of a few instants.
+    pub snapshots: Vec<Snapshot>,
+    /// SHA-256 over every image and estimate, hex.
+    pub digest: String,
+    /// Wall time of the run, seconds.
+    pub wall: f64,
+    /// CPU time of the process during the run, seconds.
+    pub cpu: f64,
+}
+
+/// What one localiser said, frame by frame.
+pub struct Track {
+    /// File stem and key in `summary.json`: `mvo`, `mvo_paper`.
+    pub name: String,
+    /// For readers: "visual odometry, keyframes".
+    pub label: String,
+    /// Its effective parameters as TOML.
+    pub parameters: String,
+    /// One a frame, in time order.
+    pub frames: Vec<FrameLog>,
+}
+
+/// One frame as one localiser saw it.
+pub struct FrameLog {
+    /// The frame's instant.
+    pub time: Timestamp,
+    /// Its pose, in the truth's world (placed there by the first pose) or, without truth, in the odom frame.
+    pub world_from_body: Isometry3<f64>,
+    /// Covariance of a left perturbation (ρ, φ) of that pose; m², m·rad, rad².
+    pub covariance: Matrix6<f64>,
+    /// Mode.
+    pub mode: Mode,
+    /// Health.
+    pub health: Health,
+    /// What the visual odometry counted; `None` for a localiser that reports nothing.
+    pub counts: Option<FrameCounts>,
+    /// Milliseconds by stage: registration, features, matching, motion; zeros when not observed.
+    pub stage_ms: [f64; 4],
+}
+
+/// Counts of one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameCounts {
+    /// Features found.
+    pub features: usize,
+    /// Matches.
+    pub matches: usize,
+    /// Inliers.
+    pub inliers: usize,
+    /// Whether the frame became a keyframe.
+    pub keyframe: bool,
+    /// Share of the sensor's depth pixels with a value, 0–1.
+    pub depth_valid_share: f64,
+}
+
+/// Images and tracked features of one instant.
+pub struct Snapshot {
+    /// When.
+    pub time: Timestamp,
+    /// Colour image.
+    pub rgb: RgbImage,
+    /// Z of the depth camera's pixels, metres; 0 = no value.
+    pub depth: Image<f32>,
+    /// Feature tracks of the judged localiser.
+    pub tracks: Vec<FeatureTrack>,
+}
