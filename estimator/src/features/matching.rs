@@ -1,0 +1,130 @@
+//! Matching of descriptors: nearest neighbour, ratio test, mutual choice.
+
+use serde::{Deserialize, Serialize};
+
+use super::surf::Feature;
+
+/// Parameters of the matching.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MatchParams {
+    /// Most that the nearest descriptor's distance may be of the second nearest's (Lowe 2004), 0–1.
+    pub max_ratio: f32,
+}
+
+impl Default for MatchParams {
+    fn default() -> Self {
+        Self { max_ratio: 0.8 }
+    }
+}
+
+/// A pair of features that show the same thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Match {
+    /// Index into the first list.
+    pub from: usize,
+    /// Index into the second list.
+    pub to: usize,
+    /// Euclidean distance of the descriptors, 0–2.
+    pub distance: f32,
+}
+
+/// The nearest and the second nearest seen so far: (similarity, index), similarity.
+#[derive(Clone, Copy)]
+struct Nearest {
+    best: f32,
+    index: usize,
+    second: f32,
+}
+
+impl Nearest {
+    const NONE: Self = Self { best: f32::NEG_INFINITY, index: usize::MAX, second: f32::NEG_INFINITY };
+
+    fn offer(&mut self, similarity: f32, index: usize) {
+        if similarity > self.best {
+            *self = Self { best: similarity, index, second: self.best };
+        } else if similarity > self.second {
+            self.second = similarity;
+        }
+    }
+}
+
+/// Pairs of `from` and `to` that are each other's nearest, pass the ratio test and share the sign of the
+/// Laplacian (Bay et al. §4.3); ordered by `from`.
+pub fn match_features(from: &[Feature], to: &[Feature], params: &MatchParams) -> Vec<Match> {
+    let mut forward = vec![Nearest::NONE; from.len()];
+    let mut backward = vec![Nearest::NONE; to.len()];
+    for sign in [false, true] {
+        let of_sign = |features: &[Feature]| -> Vec<usize> {
+            (0..features.len()).filter(|&i| features[i].laplacian_positive == sign).collect()
+        };
+        let (from_indices, to_indices) = (of_sign(from), of_sign(to));
+        for &i in &from_indices {
+            for &j in &to_indices {
+                // Unit vectors: the nearest has the largest dot product.
+                let similarity = dot(&from[i].descriptor, &to[j].descriptor);
+                forward[i].offer(similarity, j);
+                backward[j].offer(similarity, i);
+            }
+        }
+    }
+    let distance = |similarity: f32| (2.0 - 2.0 * similarity).max(0.0).sqrt();
+    forward
+        .iter()
+        .enumerate()
+        .filter(|(i, nearest)| nearest.index != usize::MAX && backward[nearest.index].index == *i)
+        .map(|(i, nearest)| (Match { from: i, to: nearest.index, distance: distance(nearest.best) }, nearest.second))
+        .filter(|(found, second)| {
+            // Without a second neighbour there is nothing to confuse it with.
+            *second == f32::NEG_INFINITY || found.distance < params.max_ratio * distance(*second)
+        })
+        .map(|(found, _)| found)
+        .collect()
+}
+
+/// Dot product in eight running sums: a fixed order of additions that the compiler can still vectorise.
+fn dot(a: &[f32; 64], b: &[f32; 64]) -> f32 {
+    let mut sums = [0.0_f32; 8];
+    for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    sums.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn feature(direction: usize, lean: f32, laplacian_positive: bool) -> Feature {
+        let mut descriptor = [0.0; 64];
+        descriptor[direction] = 1.0;
+        descriptor[63] = lean;
+        let norm = (1.0 + lean * lean).sqrt();
+        descriptor.iter_mut().for_each(|value| *value /= norm);
+        Feature { x: 0.0, y: 0.0, scale: 2.0, orientation: 0.0, response: 1.0, laplacian_positive, descriptor }
+    }
+
+    #[test]
+    fn partners_find_each_other_in_any_order() {
+        let from = [feature(0, 0.0, true), feature(1, 0.0, true), feature(2, 0.0, true)];
+        let to = [feature(2, 0.1, true), feature(0, 0.1, true), feature(5, 0.1, true)];
+        let pairs: Vec<_> =
+            match_features(&from, &to, &MatchParams::default()).iter().map(|m| (m.from, m.to)).collect();
+        assert_eq!(pairs, [(0, 1), (2, 0)]);
+    }
+
+    #[test]
+    fn twins_are_ambiguous() {
+        let from = [feature(0, 0.0, true)];
+        let to = [feature(0, 0.1, true), feature(0, 0.11, true)];
+        assert!(match_features(&from, &to, &MatchParams::default()).is_empty());
+    }
+
+    #[test]
+    fn dark_never_meets_light() {
+        let pairs = match_features(&[feature(0, 0.0, true)], &[feature(0, 0.0, false)], &MatchParams::default());
+        assert!(pairs.is_empty());
+    }
+}
