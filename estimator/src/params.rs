@@ -3,12 +3,32 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::features::matching::MatchParams;
+use crate::features::surf::SurfParams;
+use crate::motion::{PaperMotionParams, RansacParams, RefineParams};
+use crate::odometry::KeyframeParams;
+use crate::structure::DepthNoise;
+
 /// All that can be set. In a file every key carries its unit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EstimatorParams {
     /// Which visual odometry.
     pub variant: Variant,
+    /// Detector.
+    pub surf: SurfParams,
+    /// Matching of descriptors.
+    pub matching: MatchParams,
+    /// How uncertain pixels and depths are.
+    pub depth_noise: DepthNoise,
+    /// Search for a first motion.
+    pub ransac: RansacParams,
+    /// Weighted refinement (variant `keyframes`).
+    pub refine: RefineParams,
+    /// Keyframes (variant `keyframes`).
+    pub keyframes: KeyframeParams,
+    /// Reject and refit (variant `paper`).
+    pub paper: PaperMotionParams,
 }
 
 /// Which visual odometry runs.

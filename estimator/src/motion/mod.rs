@@ -1,6 +1,47 @@
-//! Rigid motion from matched 3D points.
+//! Rigid motion from matched 3D points: `rigid` (closed form, paper A Eq. 4) inside `ransac`, then either the
+//! paper's reject-and-refit (`paper`) or least squares weighted by the points' uncertainty (`refine`).
 
+mod paper;
+mod ransac;
+mod refine;
+mod rigid;
+
+use nalgebra::{Isometry3, Matrix6};
 use thiserror::Error;
+
+use crate::structure::Landmark;
+
+pub use paper::{PaperMotionParams, icp_surf};
+pub use ransac::{RansacParams, ransac};
+pub use refine::{RefineParams, refine};
+pub use rigid::fit_rigid;
+
+/// The same thing seen twice: in the camera's frame now, and in the frame of reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// In the camera's frame.
+    pub camera: Landmark,
+    /// In the reference frame.
+    pub reference: Landmark,
+}
+
+/// A motion and how sure it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Camera frame → reference frame.
+    pub reference_from_camera: Isometry3<f64>,
+    /// Covariance of a left perturbation (ρ, φ), in the reference frame; m², m·rad, rad².
+    pub covariance: Matrix6<f64>,
+    /// For each pair, whether it agrees.
+    pub inliers: Vec<bool>,
+}
+
+impl Motion {
+    /// How many pairs agree.
+    pub fn inlier_count(&self) -> usize {
+        self.inliers.iter().filter(|&&inlier| inlier).count()
+    }
+}
 
 /// Why two frames gave no motion.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

@@ -68,7 +68,7 @@ impl Haar<'_> {
     /// wavelet is cut at its border.
     fn at(&self, dx: f32, dy: f32, half: i32) -> (f32, f32) {
         // A corner between pixels: the wavelet's edge is even, so its middle is the nearest pixel corner.
-        let (x, y) = ((self.x + dx + 0.5).round() as i32, (self.y + dy + 0.5).round() as i32);
+        let (x, y) = (nearest(self.x + dx + 0.5), nearest(self.y + dy + 0.5));
         let (width, height) = (self.integral.width() as i32, self.integral.height() as i32);
         let column = |x: i32| x.clamp(0, width) as usize;
         let row = |y: i32| self.integral.row(y.clamp(0, height) as usize);
@@ -82,6 +82,12 @@ impl Haar<'_> {
         let lower = (bottom[right].wrapping_sub(centre[right])).wrapping_sub(bottom[left].wrapping_sub(centre[left]));
         (horizontal as f32, lower.wrapping_sub(upper) as f32)
     }
+}
+
+/// The nearest whole number by truncation, for values above −4096: a window reaches no further out of the image, and
+/// `f32::round` is slow where the processor lacks an instruction for it.
+fn nearest(value: f32) -> i32 {
+    (value + 4096.5) as i32 - 4096
 }
 
 /// Direction of the strongest sector of gradients within 6 s (§4.1).

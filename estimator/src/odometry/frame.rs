@@ -1,0 +1,55 @@
+//! One instant: features that have a 3D point.
+
+use crate::camera::Rig;
+use crate::estimator::Stage;
+use crate::features::surf::{Feature, Surf};
+use crate::image::{DepthImage, RgbImage};
+use crate::params::EstimatorParams;
+use crate::structure::{DepthNoise, Landmark, Registration, depth_at, lift};
+
+/// Features with depth, strongest first; `landmarks[i]` belongs to `features[i]`.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// In the colour image.
+    pub features: Vec<Feature>,
+    /// In the colour camera's frame.
+    pub landmarks: Vec<Landmark>,
+}
+
+/// Makes frames of images.
+pub struct FrameBuilder {
+    registration: Registration,
+    surf: Surf,
+    noise: DepthNoise,
+    rig: Rig,
+}
+
+impl FrameBuilder {
+    /// Tables for one rig.
+    pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
+        Self {
+            registration: Registration::new(rig),
+            surf: Surf::new(params.surf),
+            noise: params.depth_noise,
+            rig: rig.clone(),
+        }
+    }
+
+    /// Registration, SURF, and the lift to 3D (paper A, §3.1: RGB feature + registered depth).
+    pub fn build(&mut self, rgb: &RgbImage, depth: &DepthImage, stage: &mut dyn FnMut(Stage)) -> Frame {
+        stage(Stage::Registration);
+        let registered = self.registration.register(depth);
+        stage(Stage::Features);
+        let has_depth = |x: f32, y: f32| depth_at(x, y, &registered, &self.noise).is_some();
+        let (features, landmarks) = self
+            .surf
+            .detect_where(&rgb.to_luma(), has_depth)
+            .into_iter()
+            .filter_map(|feature| {
+                let landmark = lift(&feature, &registered, &self.rig.colour, &self.noise)?;
+                Some((feature, landmark))
+            })
+            .unzip();
+        Frame { features, landmarks }
+    }
+}

@@ -1,0 +1,164 @@
+//! Odometry against a window of keyframes: standing still does not drift, and depth noise averages out.
+
+use std::collections::VecDeque;
+
+use nalgebra::{Matrix6, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::estimator::Stage;
+use crate::features::matching::match_features;
+use crate::geometry::adjoint;
+use crate::motion::{MotionFailure, Pair, ransac, refine};
+use crate::params::EstimatorParams;
+
+use super::{CameraPose, FeatureTrack, Frame, Tracking};
+
+/// Parameters of the keyframes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct KeyframeParams {
+    /// Keyframes that a frame is held against.
+    pub window: usize,
+    /// A frame becomes a keyframe when half of its features have moved further than this since the newest one,
+    /// pixels …
+    #[serde(rename = "max_flow_px")]
+    pub max_flow: f64,
+    /// … or when less than this share of its features is found in the newest one, 0–1.
+    pub min_overlap: f64,
+    /// After this many frames without motion the odometry gives the old keyframes up and starts from what it sees.
+    pub max_lost_frames: usize,
+    /// How far the camera may have gone during one lost frame: σ a frame, metres. A guess: 0.5 m/s at 15 Hz.
+    #[serde(rename = "lost_sigma_m")]
+    pub lost_translation: f64,
+    /// How far it may have turned: σ a frame, radians. A guess: 30°/s at 15 Hz.
+    #[serde(rename = "lost_sigma_rad")]
+    pub lost_rotation: f64,
+}
+
+impl Default for KeyframeParams {
+    fn default() -> Self {
+        Self {
+            window: 2,
+            max_flow: 10.0,
+            min_overlap: 0.3,
+            max_lost_frames: 3,
+            lost_translation: 0.033,
+            lost_rotation: 0.035,
+        }
+    }
+}
+
+struct Keyframe {
+    pose: CameraPose,
+    frame: Frame,
+}
+
+/// Holds each frame against the newest keyframes.
+pub struct Keyframes {
+    params: EstimatorParams,
+    /// Newest last; empty before the first frame only.
+    window: VecDeque<Keyframe>,
+    /// The pose of the last frame, its covariance grown by the frames lost since.
+    last: CameraPose,
+    lost_frames: usize,
+}
+
+impl Keyframes {
+    /// Nothing seen yet.
+    pub fn new(params: &EstimatorParams) -> Self {
+        Self { params: params.clone(), window: VecDeque::new(), last: CameraPose::start(), lost_frames: 0 }
+    }
+
+    /// Follows one frame.
+    pub fn track(&mut self, frame: Frame, stage: &mut dyn FnMut(Stage)) -> Tracking {
+        let needed = self.params.ransac.min_inliers;
+        let found = frame.features.len();
+        if found < needed {
+            return self.lose(frame, MotionFailure::TooFewFeatures { found, needed }, Vec::new());
+        }
+        if self.window.is_empty() {
+            self.remember(frame);
+            return Tracking { pose: self.last.clone(), failure: None, tracks: Vec::new(), keyframe: true };
+        }
+        stage(Stage::Matching);
+        let (pairs, mut tracks) = self.pairs(&frame);
+        stage(Stage::Motion);
+        let motion = ransac(&pairs, &self.params.ransac).and_then(|start| refine(&pairs, &start, &self.params.refine));
+        let motion = match motion {
+            Ok(motion) => motion,
+            Err(failure) => return self.lose(frame, failure, tracks),
+        };
+        for (track, &inlier) in tracks.iter_mut().zip(&motion.inliers) {
+            track.inlier = inlier;
+        }
+        let newest = &self.window[self.window.len() - 1];
+        self.last = CameraPose {
+            start_from_camera: motion.reference_from_camera,
+            covariance: newest.pose.covariance + motion.covariance,
+        };
+        self.lost_frames = 0;
+        let keyframe = self.has_moved_on(&tracks, found);
+        if keyframe {
+            self.remember(frame);
+        }
+        Tracking { pose: self.last.clone(), failure: None, tracks, keyframe }
+    }
+
+    /// Pairs with every keyframe, the newest first, and the tracks to the newest; references in the start frame.
+    fn pairs(&self, frame: &Frame) -> (Vec<Pair>, Vec<FeatureTrack>) {
+        let (mut pairs, mut tracks) = (Vec::new(), Vec::new());
+        for (age, keyframe) in self.window.iter().rev().enumerate() {
+            for found in match_features(&frame.features, &keyframe.frame.features, &self.params.matching) {
+                let landmark = &keyframe.frame.landmarks[found.to];
+                pairs.push(Pair {
+                    camera: frame.landmarks[found.from],
+                    reference: landmark.moved(&keyframe.pose.start_from_camera),
+                });
+                if age == 0 {
+                    let (from, to) = (&keyframe.frame.features[found.to], &frame.features[found.from]);
+                    tracks.push(FeatureTrack::between(from, to));
+                }
+            }
+        }
+        (pairs, tracks)
+    }
+
+    /// Whether the newest keyframe no longer shows what is seen now.
+    fn has_moved_on(&self, tracks: &[FeatureTrack], features: usize) -> bool {
+        let params = &self.params.keyframes;
+        let mut flow: Vec<f32> = tracks.iter().filter(|track| track.inlier).map(FeatureTrack::length).collect();
+        if (flow.len() as f64) < params.min_overlap * features as f64 {
+            return true;
+        }
+        let middle = flow.len() / 2;
+        flow.get(middle).is_some()
+            && f64::from(*flow.select_nth_unstable_by(middle, f32::total_cmp).1) > params.max_flow
+    }
+
+    /// Makes `frame`, seen from the last pose, the newest keyframe.
+    fn remember(&mut self, frame: Frame) {
+        self.window.push_back(Keyframe { pose: self.last.clone(), frame });
+        if self.window.len() > self.params.keyframes.window {
+            self.window.pop_front();
+        }
+    }
+
+    /// A frame without motion: the pose stays and is trusted less. After too many of them the keyframes are given
+    /// up, or a camera that has moved on while it was covered would stay lost for ever.
+    fn lose(&mut self, frame: Frame, failure: MotionFailure, tracks: Vec<FeatureTrack>) -> Tracking {
+        let params = &self.params.keyframes;
+        self.lost_frames += 1;
+        let (translation, rotation) = (params.lost_translation, params.lost_rotation);
+        let growth = Vector6::new(translation, translation, translation, rotation, rotation, rotation);
+        // The perturbation acts at the camera; seen from the start frame its rotation swings the camera's position.
+        let carry = adjoint(&self.last.start_from_camera);
+        self.last.covariance += carry * Matrix6::from_diagonal(&growth.component_mul(&growth)) * carry.transpose();
+        let start_over =
+            self.lost_frames > params.max_lost_frames && !matches!(failure, MotionFailure::TooFewFeatures { .. });
+        if start_over {
+            self.window.clear();
+            self.remember(frame);
+        }
+        Tracking { pose: self.last.clone(), failure: Some(failure), tracks, keyframe: start_over }
+    }
+}
