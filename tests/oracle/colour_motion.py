@@ -1,8 +1,8 @@
 """Motion of the colour camera between the frames of each pair, by OpenCV's SIFT and PnP.
 
-The recordings' truth is of other instants than the colour images (colour and depth are not triggered together), and
-while the camera turns that is worth 5 px and more: too much to judge keypoints by. This is sharper, and shares nothing
-with SURF but the images. It must agree with the truth to within what the delay explains, or it is refused.
+The recordings' truth differs from what the colour images show by 5 px and more in some pairs (likely because colour,
+depth and truth are of different instants): too much to judge keypoints by. This is sharper, and shares nothing with
+SURF but the images. Where it differs from the truth by more than a delay can explain, it is refused.
 
     colour_motion.py DATA PAIRS.txt > colour_motion.txt
 """
@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 FEATURES = 3000
 RATIO = 0.75
 REPROJECTION_PX = 2.0
-# A moving camera's 33 ms and the truth's own error explain no more.
+# Some 30 ms of a hand-held camera's motion, and the truth's own error.
 AGREEMENT_M, AGREEMENT_DEG = 0.06, 3.0
 
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes dlib_surf.txt anew from the recordings: keypoints of every frame, matches of every pair.
+# Writes dlib_surf.txt and colour_motion.txt anew from the recordings.
 set -eu
 oracle=$(cd "$(dirname "$0")" && pwd)
 images=$(mktemp -d)
@@ -25,3 +25,6 @@ cd "$images"
         $dlib match "$from.pgm" "$to.pgm" $count $threshold | cut -d ' ' -f 1-2
     done <pairs.txt
 } >"$oracle/dlib_surf.txt"
+
+"${PYTHON:-python3}" "$oracle/colour_motion.py" "${SUNBLIND_DATA:-$oracle/../../../shared/data}" pairs.txt \
+    >"$oracle/colour_motion.txt"

@@ -1,10 +1,11 @@
-//! What dlib's SURF found on recorded frames, kept in `oracle/dlib_surf.txt`, and which frames those are.
+//! What others found on recorded frames, kept in `oracle/`: dlib its SURF, OpenCV the camera's motion. And which frames
+//! those are.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use nalgebra::Point2;
+use nalgebra::{Isometry3, Point2, Quaternion, Translation3, UnitQuaternion};
 
 use crate::repeatability::Keypoint;
 
@@ -36,9 +37,7 @@ pub struct DlibSurf {
 impl DlibSurf {
     /// Reads the committed file. Panics where it is missing or damaged: without it there is nothing to compare with.
     pub fn load() -> Self {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("oracle/dlib_surf.txt");
-        let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        Self::parse(&text)
+        Self::parse(&committed("dlib_surf.txt"))
     }
 
     /// Sections headed `points NAME` with lines `x y scale`, and `matches NAME NAME` with lines `index index`.
@@ -81,6 +80,22 @@ impl FrameId {
     pub fn name(&self) -> String {
         format!("{}_{}", self.recording, self.index)
     }
+}
+
+/// Motion of the colour camera from `from` to `to` (to_from_from), as OpenCV found it with SIFT and PnP. The recordings'
+/// own truth differs from what the colour images show by 5 px and more in some pairs.
+pub fn colour_motion(from: &FrameId, to: &FrameId) -> Isometry3<f64> {
+    let (text, head) = (committed("colour_motion.txt"), format!("{} {} ", from.name(), to.name()));
+    let line = text.lines().find_map(|line| line.strip_prefix(&head)).unwrap_or_else(|| panic!("no motion for {head}"));
+    let [x, y, z, qx, qy, qz, qw] = numbers(line);
+    let rotation = UnitQuaternion::from_quaternion(Quaternion::new(qw, qx, qy, qz));
+    Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+}
+
+/// A file in `oracle/`.
+fn committed(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("oracle").join(name);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 fn numbers<T: std::str::FromStr, const N: usize>(line: &str) -> [T; N] {

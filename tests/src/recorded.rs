@@ -18,12 +18,11 @@ pub fn data_folder() -> PathBuf {
     }
 }
 
-/// One recording: its calibration, its truth, and where its images lie.
+/// One recording: its calibration, and where its images lie.
 pub struct Recording {
     /// The published calibration.
     pub rig: Rig,
     frames: Vec<(PathBuf, PathBuf)>,
-    world_from_colour: Vec<Isometry3<f64>>,
 }
 
 impl Recording {
@@ -36,29 +35,8 @@ impl Recording {
         }
         let calibration: Calibration =
             toml::from_str(&text(&folder.join("calibration.toml"))).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let rig = calibration.rig();
-        let colour_from_truth = match calibration.truth.camera.as_str() {
-            "depth" => rig.colour_from_depth,
-            "colour" => Isometry3::identity(),
-            other => panic!("{name}: truth of an unknown camera {other:?}"),
-        };
-        let images = |list: &str| rows(&folder.join(list)).into_iter().map(|row| folder.join(&row[1]));
-        let truth = rows(&folder.join("groundtruth.txt"));
-        Some(Self {
-            frames: images("rgb.txt").zip(images("depth.txt")).collect(),
-            world_from_colour: truth.iter().map(|row| pose(row) * colour_from_truth.inverse()).collect(),
-            rig,
-        })
-    }
-
-    /// Frames in the recording.
-    pub fn len(&self) -> usize {
-        self.frames.len()
-    }
-
-    /// Whether it has none.
-    pub fn is_empty(&self) -> bool {
-        self.frames.is_empty()
+        let images = |list: &str| second_column(&folder.join(list)).into_iter().map(|name| folder.join(name));
+        Some(Self { frames: images("rgb.txt").zip(images("depth.txt")).collect(), rig: calibration.rig() })
     }
 
     /// The colour image of frame `index`.
@@ -74,11 +52,6 @@ impl Recording {
         let (width, height) = (image.width() as usize, image.height() as usize);
         Image::from_pixels(width, height, image.into_raw()).expect("one value a pixel")
     }
-
-    /// The true pose of the colour camera at frame `index`.
-    pub fn world_from_colour(&self, index: usize) -> Isometry3<f64> {
-        self.world_from_colour[index]
-    }
 }
 
 fn text(path: &Path) -> String {
@@ -89,18 +62,10 @@ fn decode(path: &Path) -> image::DynamicImage {
     image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The columns of every line that is no comment.
-fn rows(path: &Path) -> Vec<Vec<String>> {
-    let columns = |line: &str| line.split_whitespace().map(str::to_owned).collect();
-    text(path).lines().filter(|line| !line.starts_with('#')).map(columns).collect()
-}
-
-/// `timestamp tx ty tz qx qy qz qw`.
-fn pose(row: &[String]) -> Isometry3<f64> {
-    let numbers: Vec<f64> = row.iter().map(|number| number.parse().expect("a number")).collect();
-    let [_, x, y, z, qx, qy, qz, qw] = numbers[..] else { panic!("eight columns expected: {row:?}") };
-    let rotation = UnitQuaternion::from_quaternion(Quaternion::new(qw, qx, qy, qz));
-    Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+/// The file name in every line that is no comment.
+fn second_column(path: &Path) -> Vec<String> {
+    let name = |line: &str| line.split_whitespace().nth(1).expect("time stamp and file name").to_owned();
+    text(path).lines().filter(|line| !line.starts_with('#')).map(name).collect()
 }
 
 #[derive(Deserialize)]
@@ -109,7 +74,6 @@ struct Calibration {
     colour: Optics,
     depth: Depth,
     colour_from_depth: Transform,
-    truth: Truth,
 }
 
 #[derive(Deserialize)]
@@ -134,11 +98,6 @@ struct Depth {
 struct Transform {
     translation_m: [f64; 3],
     rotation_xyzw: [f64; 4],
-}
-
-#[derive(Deserialize)]
-struct Truth {
-    camera: String,
 }
 
 impl Optics {

@@ -1,4 +1,4 @@
-//! How well a feature detector finds the same spots again, judged by depth and true poses: repeatability after
+//! How well a feature detector finds the same spots again, judged by depth and known motion: repeatability after
 //! Mikolajczyk & Schmid (IJCV 2004), but through the scene's own shape instead of a homography.
 //!
 //! Depth is registered here a second time, on purpose: a judge must not share code with what it judges.
@@ -14,8 +14,8 @@ pub const TOLERANCE_PX: f64 = 3.0;
 pub const WIDE_TOLERANCE_PX: f64 = 5.0;
 /// Ratio of two scales, each way, up to which they count as the same.
 const SCALE_RATIO: f64 = 1.5;
-/// Share of depth by which two readings of one surface may differ: the Kinect's noise at 4 m is about 1 %, the
-/// truth is good to a few centimetres.
+/// Share of depth by which two readings of one surface may differ: the Kinect's noise at 4 m is about 1 %, and depth
+/// is of another instant than colour.
 const DEPTH_TOLERANCE: f64 = 0.05;
 /// Half the side, in pixels, of the window that must show one surface: the calibration's error of 2 px.
 const WINDOW_PX: isize = 2;
@@ -29,12 +29,11 @@ pub struct Keypoint {
     pub scale: f64,
 }
 
-/// One frame as the judge sees it: depth in the colour camera's pixels, and the true pose.
+/// One frame as the judge sees it: depth in the colour camera's pixels.
 pub struct View {
     camera: CameraModel,
     /// Z in metres, infinite where nothing was seen.
     depth: Image<f64>,
-    world_from_camera: Isometry3<f64>,
 }
 
 /// Where a spot of one view lies in another.
@@ -48,7 +47,7 @@ pub struct Transfer {
 
 impl View {
     /// Registers `depth` to the colour camera; where two surfaces meet in a pixel, the nearer one hides the other.
-    pub fn new(rig: &Rig, depth: &DepthImage, world_from_colour: Isometry3<f64>) -> Self {
+    pub fn new(rig: &Rig, depth: &DepthImage) -> Self {
         let mut registered = Image::filled(rig.colour.width, rig.colour.height, f64::INFINITY);
         for y in 0..depth.height() {
             for x in 0..depth.width() {
@@ -64,15 +63,14 @@ impl View {
                 }
             }
         }
-        Self { camera: rig.colour, depth: registered, world_from_camera: world_from_colour }
+        Self { camera: rig.colour, depth: registered }
     }
 
-    /// Where the surface under `pixel` appears in `other`. `None` when it has no single depth (a hole, an edge),
+    /// Where the surface under `pixel` appears in `other`, to which `motion` (other from self) leads. `None` when it has no single depth (a hole, an edge),
     /// when it leaves the image, or when `other` sees something else there (occlusion, a hole).
-    pub fn transfer(&self, pixel: &Point2<f64>, other: &Self) -> Option<Transfer> {
+    pub fn transfer(&self, pixel: &Point2<f64>, other: &Self, motion: &Isometry3<f64>) -> Option<Transfer> {
         let z = self.surface(pixel)?;
-        let point = Point3::from(self.camera.ray(pixel) * z);
-        let there = other.world_from_camera.inverse() * self.world_from_camera * point;
+        let there = motion * Point3::from(self.camera.ray(pixel) * z);
         let seen_at = other.camera.project(&there)?;
         let surface = other.surface(&seen_at)?;
         ((surface - there.z).abs() < DEPTH_TOLERANCE * there.z)
@@ -88,7 +86,8 @@ impl View {
         }
         let mut window = Vec::new();
         for row in y - WINDOW_PX..=y + WINDOW_PX {
-            window.extend_from_slice(&self.depth.row(row as usize)[(x - WINDOW_PX) as usize..=(x + WINDOW_PX) as usize]);
+            window
+                .extend_from_slice(&self.depth.row(row as usize)[(x - WINDOW_PX) as usize..=(x + WINDOW_PX) as usize]);
         }
         window.retain(|z| z.is_finite());
         // A third of the window may be holes: a Kinect's depth is rarely whole.
@@ -135,9 +134,32 @@ impl Score {
     }
 }
 
-/// Judges keypoints `from` in `first` and `to` in `second`, and `matches` (indices into both).
-pub fn score(first: &View, second: &View, from: &[Keypoint], to: &[Keypoint], matches: &[(usize, usize)]) -> Score {
-    let transfers: Vec<_> = from.iter().map(|keypoint| first.transfer(&keypoint.pixel, second)).collect();
+impl std::ops::AddAssign for Score {
+    fn add_assign(&mut self, other: Self) {
+        self.judged += other.judged;
+        self.repeated += other.repeated;
+        self.matches += other.matches;
+        self.judged_matches += other.judged_matches;
+        self.inliers += other.inliers;
+        self.wide_inliers += other.wide_inliers;
+    }
+}
+
+/// One detector's keypoints in both frames, and its matches as indices into them.
+#[derive(Clone, Copy, Debug)]
+pub struct Found<'a> {
+    /// In the first frame.
+    pub from: &'a [Keypoint],
+    /// In the second frame.
+    pub to: &'a [Keypoint],
+    /// First to second.
+    pub matches: &'a [(usize, usize)],
+}
+
+/// Judges what a detector found in two frames, given the motion (second from first) between them.
+pub fn score(first: &View, second: &View, motion: &Isometry3<f64>, found: Found) -> Score {
+    let Found { from, to, matches } = found;
+    let transfers: Vec<_> = from.iter().map(|keypoint| first.transfer(&keypoint.pixel, second, motion)).collect();
     let mut score = Score { matches: matches.len(), ..Score::default() };
     for (keypoint, transfer) in from.iter().zip(&transfers) {
         let Some(transfer) = transfer else { continue };
@@ -162,13 +184,15 @@ fn is_same_spot(keypoint: &Keypoint, transfer: &Transfer, candidate: &Keypoint) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{Translation3, UnitQuaternion};
 
-    /// A wall 2 m in front of a camera at `x`.
-    fn wall(x: f64) -> View {
-        let rig = Rig::kinect_default();
-        let depth = DepthImage::filled(640, 480, 10_000);
-        View::new(&rig, &depth, Isometry3::from_parts(Translation3::new(x, 0.0, 0.0), UnitQuaternion::identity()))
+    /// A wall in front of an uncalibrated Kinect.
+    fn wall(z: f64) -> View {
+        View::new(&Rig::kinect_default(), &DepthImage::filled(640, 480, (z * 5000.0) as u16))
+    }
+
+    /// What the scene does when the camera steps 0.1 m to the right.
+    fn step() -> Isometry3<f64> {
+        Isometry3::translation(-0.1, 0.0, 0.0)
     }
 
     fn keypoint(x: f64, y: f64) -> Keypoint {
@@ -178,20 +202,26 @@ mod tests {
     #[test]
     fn a_step_to_the_right_moves_the_wall_to_the_left() {
         // 525 px · 0.1 m / 2 m.
-        let there = wall(0.0).transfer(&Point2::new(300.0, 200.0), &wall(0.1)).unwrap();
+        let there = wall(2.0).transfer(&Point2::new(300.0, 200.0), &wall(2.0), &step()).unwrap();
         assert!((there.pixel - Point2::new(273.75, 200.0)).norm() < 1e-9, "{there:?}");
         assert!((there.magnification - 1.0).abs() < 1e-12);
     }
 
     #[test]
+    fn a_step_forward_magnifies() {
+        let forward = Isometry3::translation(0.0, 0.0, -1.0);
+        let there = wall(2.0).transfer(&Point2::new(300.0, 200.0), &wall(1.0), &forward).unwrap();
+        assert!((there.magnification - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
     fn what_leaves_the_image_is_not_judged() {
-        assert!(wall(0.0).transfer(&Point2::new(20.0, 200.0), &wall(0.1)).is_none());
+        assert!(wall(2.0).transfer(&Point2::new(20.0, 200.0), &wall(2.0), &step()).is_none());
     }
 
     #[test]
     fn what_is_hidden_is_not_judged() {
-        let near = View::new(&Rig::kinect_default(), &DepthImage::filled(640, 480, 5_000), Isometry3::identity());
-        assert!(wall(0.0).transfer(&Point2::new(300.0, 200.0), &near).is_none());
+        assert!(wall(2.0).transfer(&Point2::new(300.0, 200.0), &wall(1.0), &step()).is_none());
     }
 
     #[test]
@@ -200,9 +230,9 @@ mod tests {
         for (index, value) in depth.pixels_mut().iter_mut().enumerate() {
             *value = if index % 640 < 300 { 5_000 } else { 10_000 };
         }
-        let view = View::new(&Rig::kinect_default(), &depth, Isometry3::identity());
-        assert!(view.transfer(&Point2::new(300.0, 200.0), &view).is_none());
-        assert!(view.transfer(&Point2::new(320.0, 200.0), &view).is_some());
+        let view = View::new(&Rig::kinect_default(), &depth);
+        assert!(view.transfer(&Point2::new(300.0, 200.0), &view, &Isometry3::identity()).is_none());
+        assert!(view.transfer(&Point2::new(320.0, 200.0), &view, &Isometry3::identity()).is_some());
     }
 
     #[test]
@@ -210,27 +240,25 @@ mod tests {
         let mut rig = Rig::kinect_default();
         rig.depth.registered_to_colour = false;
         rig.colour_from_depth = Isometry3::translation(-0.02, 0.0, 0.0);
-        // A spot nearer than the wall shows where registration puts it: 525 px · 0.02 m / 1 m to the left.
+        // A box nearer than the wall moves by 525 px · 0.02 m / 1 m to the left, the wall by half of it.
         let mut depth = DepthImage::filled(640, 480, 10_000);
         for y in 190..210 {
             for x in 290..310 {
                 depth.pixels_mut()[y * 640 + x] = 5_000;
             }
         }
-        let view = View::new(&rig, &depth, Isometry3::identity());
-        assert_eq!(view.depth.at(289, 200), 1.0);
-        assert_eq!(view.depth.at(305, 200), 2.0);
+        let view = View::new(&rig, &depth);
+        assert_eq!(view.depth.at(282, 200), 1.0);
+        assert_eq!(view.depth.at(306, 200), 2.0);
     }
 
     #[test]
     fn true_and_false_keypoints_and_matches_are_told_apart() {
-        let (first, second) = (wall(0.0), wall(0.1));
         let from = [keypoint(300.0, 200.0), keypoint(400.0, 200.0), keypoint(500.0, 200.0)];
         let mut to = [keypoint(275.0, 201.0), keypoint(373.75, 204.0), keypoint(473.75, 200.0)];
         to[2].scale = 4.0;
-        let found = score(&first, &second, &from, &to, &[(0, 0), (1, 1), (2, 0)]);
-        let expected =
-            Score { judged: 3, repeated: 1, matches: 3, judged_matches: 3, inliers: 1, wide_inliers: 2 };
-        assert_eq!(found, expected);
+        let found = Found { from: &from, to: &to, matches: &[(0, 0), (1, 1), (2, 0)] };
+        let expected = Score { judged: 3, repeated: 1, matches: 3, judged_matches: 3, inliers: 1, wide_inliers: 2 };
+        assert_eq!(score(&wall(2.0), &wall(2.0), &step(), found), expected);
     }
 }
