@@ -59,6 +59,7 @@ impl Estimator {
     /// The first parameter or calibration number that can't be worked with.
     pub fn new(params: EstimatorParams, rig: Rig) -> Result<Self, ParamError> {
         rig.validate()?;
+        params.validate()?;
         Ok(Self {
             frames: FrameBuilder::new(&params, &rig),
             odometry: match params.variant {

@@ -7,7 +7,7 @@ use crate::features::matching::MatchParams;
 use crate::features::surf::SurfParams;
 use crate::motion::{PaperMotionParams, RansacParams, RefineParams};
 use crate::odometry::KeyframeParams;
-use crate::structure::DepthNoise;
+use crate::structure::{DepthNoise, MAX_WINDOW};
 
 /// All that can be set. In a file every key carries its unit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -29,6 +29,49 @@ pub struct EstimatorParams {
     pub keyframes: KeyframeParams,
     /// Reject and refit (variant `paper`).
     pub paper: PaperMotionParams,
+}
+
+impl EstimatorParams {
+    /// Checks every number once, so that the estimator need not.
+    ///
+    /// # Errors
+    /// The first number outside its range.
+    pub fn validate(&self) -> Result<(), ParamError> {
+        let at_least_one = |key, value: usize| (key, value as f64, value >= 1, "at least 1");
+        let positive = |key, value: f64| (key, value, value.is_finite() && value > 0.0, "a positive number");
+        let share = |key, value: f64| (key, value, (0.0..=1.0).contains(&value), "between 0 and 1");
+        let checks = [
+            at_least_one("surf.max_features", self.surf.max_features),
+            at_least_one("surf.cell_px", self.surf.cell),
+            ("surf.octaves", self.surf.octaves as f64, (1..=4).contains(&self.surf.octaves), "1 to 4"),
+            positive("surf.min_response", self.surf.min_response.into()),
+            share("matching.max_ratio", self.matching.max_ratio.into()),
+            positive("depth_noise.axial_per_m", self.depth_noise.axial),
+            positive("depth_noise.pixel_sigma_px", self.depth_noise.pixel_sigma),
+            positive("depth_noise.max_depth_m", self.depth_noise.max_depth),
+            ("depth_noise.window_px", self.depth_noise.window as f64, self.depth_noise.window <= MAX_WINDOW, "0 to 5"),
+            at_least_one("ransac.max_iterations", self.ransac.max_iterations),
+            positive("ransac.miss_probability", self.ransac.miss_probability),
+            positive("ransac.max_distance_sigma", self.ransac.max_distance_sigma),
+            ("ransac.min_inliers", self.ransac.min_inliers as f64, self.ransac.min_inliers >= 3, "at least 3"),
+            at_least_one("refine.max_iterations", self.refine.max_iterations),
+            positive("refine.step_tolerance", self.refine.step_tolerance),
+            positive("refine.cauchy_sigma", self.refine.cauchy_sigma),
+            positive("refine.max_distance_sigma", self.refine.max_distance_sigma),
+            positive("refine.max_weakest_sigma_m", self.refine.max_weakest_sigma),
+            at_least_one("keyframes.window", self.keyframes.window),
+            positive("keyframes.max_flow_px", self.keyframes.max_flow),
+            share("keyframes.min_overlap", self.keyframes.min_overlap),
+            positive("keyframes.lost_sigma_m", self.keyframes.lost_translation),
+            positive("keyframes.lost_sigma_rad", self.keyframes.lost_rotation),
+            positive("paper.max_distance_m", self.paper.max_distance),
+            at_least_one("paper.max_iterations", self.paper.max_iterations),
+        ];
+        match checks.into_iter().find(|(.., holds, _)| !holds) {
+            Some((key, value, _, wanted)) => Err(ParamError::OutOfRange { key, value, wanted }),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Which visual odometry runs.
@@ -58,4 +101,24 @@ pub enum ParamError {
         /// What would do.
         wanted: &'static str,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_hold() {
+        assert_eq!(EstimatorParams::default().validate(), Ok(()));
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_named() {
+        let mut params = EstimatorParams::default();
+        params.matching.max_ratio = f32::NAN;
+        assert!(params.validate().unwrap_err().to_string().starts_with("matching.max_ratio = NaN"));
+        params = EstimatorParams::default();
+        params.ransac.min_inliers = 2;
+        assert!(params.validate().unwrap_err().to_string().contains("at least 3"));
+    }
 }

@@ -83,7 +83,8 @@ impl Keyframes {
         stage(Stage::Matching);
         let (pairs, mut tracks) = self.pairs(&frame);
         stage(Stage::Motion);
-        let motion = ransac(&pairs, &self.params.ransac).and_then(|start| refine(&pairs, &start, &self.params.refine));
+        let motion =
+            ransac(&pairs, &self.params.ransac).and_then(|start| refine(&pairs, &start, needed, &self.params.refine));
         let motion = match motion {
             Ok(motion) => motion,
             Err(failure) => return self.lose(frame, failure, tracks),
@@ -160,5 +161,142 @@ impl Keyframes {
             self.remember(frame);
         }
         Tracking { pose: self.last.clone(), failure: Some(failure), tracks, keyframe: start_over }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::features::surf::Feature;
+    use crate::geometry::{exp_se3, log_se3};
+    use crate::structure::Landmark;
+    use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// Points with descriptors of their own, 2–4 m away, seen with a Kinect's noise.
+    struct World {
+        points: Vec<(Point3<f64>, [f32; 64])>,
+        random: ChaCha8Rng,
+    }
+
+    impl World {
+        fn new(seed: u64) -> Self {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let points = (0..200)
+                .map(|_| {
+                    let position = Point3::from(Vector3::from_fn(|axis, _| match axis {
+                        2 => random.random_range(2.0..4.0),
+                        _ => random.random_range(-1.5..1.5),
+                    }));
+                    let mut descriptor: [f32; 64] = std::array::from_fn(|_| StandardNormal.sample(&mut random));
+                    let norm = descriptor.iter().map(|value| value * value).sum::<f32>().sqrt();
+                    descriptor.iter_mut().for_each(|value| *value /= norm);
+                    (position, descriptor)
+                })
+                .collect();
+            Self { points, random }
+        }
+
+        fn seen_from(&mut self, start_from_camera: &Isometry3<f64>) -> Frame {
+            let (mut features, mut landmarks) = (Vec::new(), Vec::new());
+            for (point, descriptor) in &self.points {
+                let seen = start_from_camera.inverse_transform_point(point);
+                let mut normal = || -> f64 { StandardNormal.sample(&mut self.random) };
+                let (across, along) = (seen.z / 525.0, 1.425e-3 * seen.z * seen.z);
+                let covariance =
+                    Matrix3::from_diagonal(&Vector3::new(across, across, along).map(|sigma| sigma * sigma));
+                let position = seen + Vector3::new(across * normal(), across * normal(), along * normal());
+                features.push(Feature {
+                    x: (525.0 * position.x / position.z) as f32,
+                    y: (525.0 * position.y / position.z) as f32,
+                    scale: 2.0,
+                    orientation: 0.0,
+                    response: 1.0,
+                    laplacian_positive: true,
+                    descriptor: *descriptor,
+                });
+                landmarks.push(Landmark { position, covariance });
+            }
+            Frame { features, landmarks }
+        }
+    }
+
+    fn nothing_seen() -> Frame {
+        Frame { features: Vec::new(), landmarks: Vec::new() }
+    }
+
+    fn error(tracking: &Tracking, truth: &Isometry3<f64>) -> Vector6<f64> {
+        log_se3(&(tracking.pose.start_from_camera * truth.inverse()))
+    }
+
+    #[test]
+    fn standing_still_does_not_drift() {
+        let mut world = World::new(1);
+        let mut odometry = Keyframes::new(&EstimatorParams::default());
+        let mut furthest = 0.0_f64;
+        for _ in 0..300 {
+            let tracking = odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
+            furthest = furthest.max(tracking.pose.start_from_camera.translation.vector.norm());
+        }
+        // One frame's own noise is about 2 mm; 300 steps of a walk would reach 30 mm.
+        assert!(furthest < 0.008, "{furthest}");
+        assert_eq!(odometry.window.len(), 1);
+    }
+
+    #[test]
+    fn a_drive_is_followed_within_its_covariance() {
+        let (mut sum, runs) = (0.0, 20);
+        for seed in 0..runs {
+            let mut world = World::new(100 + seed);
+            let mut odometry = Keyframes::new(&EstimatorParams::default());
+            let mut last = None;
+            for step in 0..60 {
+                let along = f64::from(step) / 60.0;
+                let truth = exp_se3(&Vector6::new(0.5 * along, 0.0, 0.8 * along, 0.0, 0.2 * along, 0.0));
+                last = Some((odometry.track(world.seen_from(&truth), &mut |_| {}), truth));
+            }
+            let (tracking, truth) = last.unwrap();
+            let error = error(&tracking, &truth);
+            assert!(error.norm() < 0.05, "{error}");
+            sum += error.dot(&(tracking.pose.covariance.try_inverse().unwrap() * error));
+        }
+        // Six degrees of freedom, mean 6. Keyframes share their neighbours' noise, which the covariance leaves out.
+        let anees = sum / runs as f64;
+        assert!((2.0..12.0).contains(&anees), "{anees}");
+    }
+
+    #[test]
+    fn a_covered_lens_is_said_and_survived() {
+        let mut world = World::new(3);
+        let mut odometry = Keyframes::new(&EstimatorParams::default());
+        odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
+        let before = odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
+        for _ in 0..10 {
+            let lost = odometry.track(nothing_seen(), &mut |_| {});
+            assert!(matches!(lost.failure, Some(MotionFailure::TooFewFeatures { found: 0, .. })));
+            assert_eq!(lost.pose.start_from_camera, before.pose.start_from_camera);
+        }
+        // The same place again: the pose comes back, and with it the trust in it.
+        let back = odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
+        assert_eq!(back.failure, None);
+        assert!(back.pose.covariance.trace() < 1e-3);
+    }
+
+    #[test]
+    fn a_place_never_seen_before_starts_anew_with_less_trust() {
+        let mut odometry = Keyframes::new(&EstimatorParams::default());
+        odometry.track(World::new(4).seen_from(&Isometry3::identity()), &mut |_| {});
+        let mut elsewhere = World::new(5);
+        let lost = EstimatorParams::default().keyframes.max_lost_frames;
+        for _ in 0..lost {
+            assert!(odometry.track(elsewhere.seen_from(&Isometry3::identity()), &mut |_| {}).failure.is_some());
+        }
+        let new_start = odometry.track(elsewhere.seen_from(&Isometry3::identity()), &mut |_| {});
+        assert!(new_start.failure.is_some() && new_start.keyframe);
+        let found = odometry.track(elsewhere.seen_from(&Isometry3::identity()), &mut |_| {});
+        assert_eq!(found.failure, None);
+        assert!(found.pose.covariance[(0, 0)] > lost as f64 * 0.033_f64.powi(2));
     }
 }
