@@ -262,9 +262,10 @@ mod tests {
             assert!(error.norm() < 0.05, "{error}");
             sum += error.dot(&(tracking.pose.covariance.try_inverse().unwrap() * error));
         }
-        // Six degrees of freedom, mean 6. Keyframes share their neighbours' noise, which the covariance leaves out.
-        let anees = sum / runs as f64;
-        assert!((2.0..12.0).contains(&anees), "{anees}");
+        // Six degrees of freedom, mean 6. A keyframe's noise enters twice with opposite signs, as reference and as
+        // referenced; the covariance adds both, so it may be too large here, but never too small.
+        let anees = sum / f64::from(runs as u32);
+        assert!((0.3..9.0).contains(&anees), "{anees}");
     }
 
     #[test]
