@@ -54,6 +54,9 @@ pub enum RecordError {
     /// An image that is damaged or of an unknown format.
     #[error("{}: can't be decoded: {source}; copy or record it again as PNG or JPEG", file.display())]
     Undecodable { file: PathBuf, source: ImageError },
+    /// A file that ends before its image does.
+    #[error("{}: the file ends before the image does; copy or record it again", file.display())]
+    Truncated { file: PathBuf },
     /// An image of another size than the calibration's.
     #[error(
         "{}: the image is {}×{} px, the calibration says {}×{} px for [{camera}]; correct width_px and height_px in \

@@ -1,11 +1,11 @@
 //! One colour image and the depth image that belongs to it.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use image::{ColorType, DynamicImage, ImageDecoder, ImageReader};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use sunblind_estimator::image::{DepthImage, Image, RgbImage};
 use sunblind_estimator::{Rig, Timestamp};
 
@@ -58,46 +58,57 @@ impl FrameFiles {
 }
 
 fn colour(file: &Path, expected: (usize, usize)) -> Result<RgbImage, RecordError> {
-    let bytes = open(file, "colour", expected)?.decode()?.into_rgb8().into_raw();
-    Ok(of_size(expected, bytes.as_chunks().0.to_vec()))
+    let bytes = read(file)?;
+    let decoder = decoder(file, &bytes, "colour", expected)?;
+    let image = DynamicImage::from_decoder(decoder).map_err(|source| undecodable(file, source))?;
+    Ok(of_size(expected, image.into_rgb8().into_raw().as_chunks().0.to_vec()))
 }
 
 fn depth(file: &Path, expected: (usize, usize)) -> Result<DepthImage, RecordError> {
-    let opened = open(file, "depth", expected)?;
-    let found = opened.decoder.color_type();
+    let bytes = read(file)?;
+    let decoder = decoder(file, &bytes, "depth", expected)?;
+    let found = decoder.color_type();
     if found != ColorType::L16 {
         return Err(RecordError::DepthFormat { file: file.to_owned(), found: in_words(found) });
     }
-    Ok(of_size(expected, opened.decode()?.into_luma16().into_raw()))
+    let image = DynamicImage::from_decoder(decoder).map_err(|source| undecodable(file, source))?;
+    Ok(of_size(expected, image.into_luma16().into_raw()))
 }
 
 fn of_size<P>((width, height): (usize, usize), pixels: Vec<P>) -> Image<P> {
     Image::from_pixels(width, height, pixels).expect("the decoder gives as many pixels as its header says")
 }
 
-/// An image whose header has been read and whose size is right.
-struct Opened<'a> {
-    file: &'a Path,
-    decoder: Box<dyn ImageDecoder>,
-}
-
-impl Opened<'_> {
-    fn decode(self) -> Result<DynamicImage, RecordError> {
-        DynamicImage::from_decoder(self.decoder).map_err(|source| undecodable(self.file, source))
-    }
+fn read(file: &Path) -> Result<Vec<u8>, RecordError> {
+    fs::read(file).map_err(|error| undecodable(file, error.into()))
 }
 
 /// Reads the header only, so that an image of the wrong size costs nothing, however large it claims to be.
-fn open<'a>(file: &'a Path, camera: &'static str, expected: (usize, usize)) -> Result<Opened<'a>, RecordError> {
-    let reader = File::open(file).map(BufReader::new).map_err(|error| undecodable(file, error.into()))?;
-    let reader = ImageReader::new(reader).with_guessed_format().map_err(|error| undecodable(file, error.into()))?;
+fn decoder<'a>(
+    file: &Path,
+    bytes: &'a [u8],
+    camera: &'static str,
+    expected: (usize, usize),
+) -> Result<impl ImageDecoder + 'a, RecordError> {
+    let format = image::guess_format(bytes).map_err(|source| undecodable(file, source))?;
+    if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
+        return Err(RecordError::Truncated { file: file.to_owned() });
+    }
+    let reader = ImageReader::with_format(Cursor::new(bytes), format);
     let decoder = reader.into_decoder().map_err(|source| undecodable(file, source))?;
     let (width, height) = decoder.dimensions();
     let found = (width as usize, height as usize);
     if found != expected {
         return Err(RecordError::Size { file: file.to_owned(), camera, found, expected });
     }
-    Ok(Opened { file, decoder: Box::new(decoder) })
+    Ok(decoder)
+}
+
+/// Whether the last scan (FF DA) is followed by the end of the image (FF D9); neither occurs within a scan
+/// (ITU-T T.81, B.1.1.2 and B.1.1.5). The decoder itself fills what is missing with grey and says nothing.
+fn jpeg_is_whole(bytes: &[u8]) -> bool {
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    last([0xff, 0xd9]) > last([0xff, 0xda])
 }
 
 fn undecodable(file: &Path, source: image::ImageError) -> RecordError {

@@ -1,5 +1,5 @@
 //! The text files of a TUM RGB-D folder: `#` begins a comment; every other line is a time stamp and what belongs to it,
-//! each line later than the one before.
+//! in the order of time.
 
 use std::fs;
 use std::io;
@@ -39,21 +39,41 @@ pub(super) fn read(file: &Path, wanted: &'static str) -> Result<String, RecordEr
     })
 }
 
+/// How the time stamps of a file follow each other.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// Each later than the one before.
+    Rising,
+    /// None earlier than the one before.
+    NotFalling,
+}
+
 /// The entries of `text`, the content of `file`; `wanted` says what a line looks like.
-pub(super) fn entries<'a>(file: &'a Path, text: &'a str, wanted: &'static str) -> Result<Vec<Entry<'a>>, RecordError> {
+pub(super) fn entries<'a>(
+    file: &'a Path,
+    text: &'a str,
+    wanted: &'static str,
+    order: Order,
+) -> Result<Vec<Entry<'a>>, RecordError> {
     let mut entries: Vec<Entry> = Vec::new();
     let content = text.strip_prefix('\u{feff}').unwrap_or(text);
     for line in content.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#')) {
         let (stamp, rest) = line.split_once(char::is_whitespace).unwrap_or((line, &line[line.len()..]));
         let place = || place_of(file, text, stamp);
         let time = parse_time(stamp).ok_or_else(|| RecordError::Time { place: place(), found: stamp.to_owned() })?;
-        if let Some(previous) = entries.last().filter(|previous| previous.time >= time) {
+        if let Some(previous) = entries.last().filter(|previous| !order.allows(previous.time, time)) {
             let (found, previous) = (time.as_secs(), previous.time.as_secs());
             return Err(RecordError::NotLater { place: place(), found, previous });
         }
         entries.push(Entry { time, rest: rest.trim_start(), text, file });
     }
     if entries.is_empty() { Err(RecordError::Empty { file: file.to_owned(), wanted }) } else { Ok(entries) }
+}
+
+impl Order {
+    fn allows(self, previous: Timestamp, next: Timestamp) -> bool {
+        next > previous || (self == Self::NotFalling && next == previous)
+    }
 }
 
 /// A decimal number of seconds, exact to the nanosecond (an f64 is not, at today's Unix times); digits below
@@ -104,7 +124,7 @@ mod tests {
     #[test]
     fn comments_blank_lines_and_windows_line_ends_are_skipped() {
         let text = "\u{feff}# colour\r\n\r\n0.5 rgb/a b.png\r\n  1.0\trgb/c.png  \r\n";
-        let entries = entries(Path::new("rgb.txt"), text, "").unwrap();
+        let entries = entries(Path::new("rgb.txt"), text, "", Order::Rising).unwrap();
         let rest: Vec<_> = entries.iter().map(|entry| entry.rest).collect();
         assert_eq!(rest, ["rgb/a b.png", "rgb/c.png"]);
         assert_eq!(entries[1].place_of(entries[1].rest).to_string(), "rgb.txt:4:7");
@@ -113,8 +133,10 @@ mod tests {
     #[test]
     fn time_must_move_on() {
         for text in ["1.0 a\n1.0 b\n", "2.0 a\n1.0 b\n"] {
-            let error = entries(Path::new("rgb.txt"), text, "").err().unwrap();
+            let error = entries(Path::new("rgb.txt"), text, "", Order::Rising).err().unwrap();
             assert!(error.to_string().starts_with("rgb.txt:2:1: "), "{error}");
         }
+        let repeated = |text| entries(Path::new("groundtruth.txt"), text, "", Order::NotFalling).is_ok();
+        assert!(repeated("1.0 a\n1.0 b\n") && !repeated("2.0 a\n1.0 b\n"));
     }
 }

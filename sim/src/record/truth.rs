@@ -5,20 +5,21 @@ use std::path::Path;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::error::RecordError;
-use super::list::{self, Entry};
+use super::list::{self, Entry, Order};
 use crate::evaluation::StampedPose;
 
 const POSE: &str = "`timestamp tx ty tz qx qy qz qw`";
 /// How far a quaternion's norm may be from 1: TUM files have four decimals, some tools three.
 const NORM_TOLERANCE: f64 = 0.01;
 
-/// The poses in `file`, in time order; none when there is no such file.
+/// The poses in `file`, in time order (a time may repeat); none when there is no such file.
 pub(super) fn read(file: &Path) -> Result<Vec<StampedPose>, RecordError> {
     if !file.exists() {
         return Ok(Vec::new());
     }
     let text = list::read(file, POSE)?;
-    list::entries(file, &text, POSE)?.iter().map(pose).collect()
+    // Motion capture at 300 Hz repeats time stamps once they are rounded to 0.1 ms, as TUM's are.
+    list::entries(file, &text, POSE, Order::NotFalling)?.iter().map(pose).collect()
 }
 
 fn pose(entry: &Entry) -> Result<StampedPose, RecordError> {

@@ -8,7 +8,8 @@ use sunblind_estimator::{Rig, Timestamp};
 use super::calibration::{self, Body, Calibration};
 use super::error::RecordError;
 use super::frame::{FrameFiles, ImageFile};
-use super::{list, truth};
+use super::list::{self, Order};
+use super::truth;
 use crate::evaluation::StampedPose;
 
 /// How far apart in time a colour and a depth image may be and still be one frame.
@@ -26,7 +27,7 @@ pub struct Recording {
     pub body: Body,
     /// Its frames in time order; every image of one frame is earlier than every image of the next.
     pub frames: Vec<FrameFiles>,
-    /// The truth as recorded, in time order; empty when there is none.
+    /// The truth as recorded, in time order (a time may repeat); empty when there is none.
     pub truth: Vec<StampedPose>,
     /// What a reader should know first, one sentence each.
     pub warnings: Vec<String>,
@@ -77,7 +78,7 @@ fn name_of(folder: &Path) -> String {
 fn images(folder: &Path, list: &str, wanted: &'static str) -> Result<Vec<ImageFile>, RecordError> {
     let file = folder.join(list);
     let text = list::read(&file, wanted)?;
-    list::entries(&file, &text, IMAGE_LINE)?
+    list::entries(&file, &text, IMAGE_LINE, Order::Rising)?
         .iter()
         .map(|entry| {
             let place = || entry.place_of(entry.rest);
