@@ -1,1 +1,5 @@
 //! Tests that cross crates live in `tests/`; this library holds what they share.
+
+pub mod command;
+pub mod fake_localizer;
+pub mod tiny_recording;

@@ -1,10 +1,11 @@
 //! `sunblind replay`: the estimator on a recording.
 
+use std::fmt::Write;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use sunblind_estimator::params::Variant;
 use sunblind_estimator::{EstimatorParams, ParamError, Rig};
 
@@ -67,7 +68,6 @@ impl Replay {
         let out = self.out.unwrap_or_else(|| Path::new("out").join(&recording.name));
         let folder = OutputFolder::check(&out)?;
 
-        tell(&format!("{}: {} frames, poses of {}", recording.name, recording.frames.len(), recording.body.in_words()));
         let progress = progress_bar(recording.frames.len());
         let mut options = ReplayOptions { on_frame: &|| progress.inc(1), ..ReplayOptions::default() };
         options.threads = self.threads.unwrap_or(options.threads);
@@ -79,14 +79,22 @@ impl Replay {
             tell(&format!("warning: {warning}"));
         }
         folder.publish(|folder| report::write(&log, folder).map(drop))?;
-        answer(&format!("{}\nreport: {}", table::of(&log), out.join("report.html").display()));
+        answer(&format!(
+            "{}: {} frames, poses of {}\n{}\nreport: {}",
+            recording.name,
+            recording.frames.len(),
+            recording.body.in_words(),
+            table::of(&log),
+            out.join("report.html").display()
+        ));
         Ok(())
     }
 }
 
 /// The product's odometry and, unless it is asked for anyway, the paper's to compare with.
 fn localizers(params: EstimatorParams, rig: &Rig) -> Result<Vec<Driven>, ParamError> {
-    let paper = EstimatorParams { variant: Variant::Paper, ..params.clone() };
+    let mut paper = params.clone();
+    paper.variant = Variant::Paper;
     let label = match params.variant {
         Variant::Keyframes => "visual odometry, keyframes",
         Variant::Paper => PAPER_LABEL,
@@ -101,6 +109,10 @@ const PAPER_LABEL: &str = "visual odometry, as in the paper";
 
 /// Frames, frames a second and time left, on standard error; nothing where that is no terminal.
 fn progress_bar(frames: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames  {per_sec}  {eta} left");
-    ProgressBar::new(frames as u64).with_style(style.expect("the template is well formed"))
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames  {per_second}/s  {eta} left")
+        .expect("the template is well formed")
+        .with_key("per_second", |state: &ProgressState, out: &mut dyn Write| {
+            let _ = write!(out, "{:.1}", state.per_sec());
+        });
+    ProgressBar::new(frames as u64).with_style(style)
 }

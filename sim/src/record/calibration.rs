@@ -93,6 +93,7 @@ pub fn read(file: &Path) -> Result<Calibration, RecordError> {
 }
 
 /// Something wrong with the bytes `span` of the file.
+#[derive(Debug)]
 struct Fault {
     span: Range<usize>,
     problem: String,

@@ -36,3 +36,29 @@ impl StageClock {
         self.spent_ms[slot] += since.elapsed().as_secs_f64() * 1e3;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn a_stage_lasts_until_the_next_and_counts_for_one_frame() {
+        let pause = || sleep(Duration::from_millis(2));
+        let mut clock = StageClock::default();
+        clock.begin(Stage::Features);
+        pause();
+        clock.begin(Stage::Done);
+        pause();
+        let [registration, features, matching, motion] = clock.take();
+        assert!(features >= 2.0, "{features} ms");
+        assert_eq!([registration, matching, motion], [0.0; 3]);
+        // A frame that fails within a stage never says that it is done.
+        clock.begin(Stage::Motion);
+        pause();
+        assert!(clock.take()[3] >= 2.0);
+        assert_eq!(clock.take(), [0.0; 4]);
+    }
+}

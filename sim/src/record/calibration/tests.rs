@@ -6,7 +6,7 @@ const KINECT: &str = include_str!("kinect.toml");
 fn fault_after(from: &str, to: &str) -> String {
     assert!(KINECT.contains(from), "{from}");
     let text = KINECT.replacen(from, to, 1);
-    let Fault { span, problem } = parse(&text).err().expect("a fault");
+    let Fault { span, problem } = parse(&text).expect_err("a fault");
     let place = Place::at_offset(Path::new("c"), &text, span.start);
     format!("{place}: {problem}")
 }

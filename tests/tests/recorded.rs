@@ -1,0 +1,44 @@
+//! The recordings of real Kinects, where they are at hand.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::Isometry3;
+use sunblind_sim::record::{Body, Recording};
+use sunblind_sim::runner::{Driven, ReplayOptions, replay};
+use sunblind_tests::fake_localizer::FakeLocalizer;
+
+/// The folder of a real recording; `None`, and said so, where there is none.
+fn recorded(name: &str) -> Option<PathBuf> {
+    let data = std::env::var_os("SUNBLIND_DATA")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data"), PathBuf::from);
+    let folder = data.join(name);
+    if !folder.is_dir() {
+        eprintln!("skipped: no recorded data ({})", folder.display());
+        return None;
+    }
+    Some(folder)
+}
+
+#[test]
+fn an_unregistered_kinect_with_the_depth_cameras_truth() {
+    let Some(folder) = recorded("kinect1_redkitchen") else { return };
+    let recording = Recording::open(&folder, None).unwrap();
+    assert_eq!((recording.frames.len(), recording.truth.len(), recording.body), (300, 300, Body::Depth));
+    let robot_from_depth = recording.rig.robot_from_colour * recording.rig.colour_from_depth;
+    assert_eq!(robot_from_depth, Isometry3::identity());
+    assert!(recording.warnings.is_empty(), "{:?}", recording.warnings);
+
+    let fake = Driven::own("fake", "", Box::new(FakeLocalizer::default()));
+    let log = replay(&recording, vec![fake], &ReplayOptions::default()).unwrap();
+    assert_eq!(log.truth, recording.truth);
+    assert_eq!(log.tracks[0].frames.len(), 300);
+}
+
+#[test]
+fn a_registered_kinect_with_the_colour_cameras_truth() {
+    let Some(folder) = recorded("kinect1_tum_fr1_10") else { return };
+    let recording = Recording::open(&folder, None).unwrap();
+    assert_eq!((recording.frames.len(), recording.body), (10, Body::Colour));
+    assert_eq!(recording.rig.robot_from_colour, Isometry3::identity());
+    assert!((recording.rig.colour.distortion.k1 - 0.2624).abs() < 1e-12);
+}
