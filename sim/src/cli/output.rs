@@ -89,10 +89,17 @@ impl OutputFolder {
 
     /// A new folder beside this one, hidden, on the same file system.
     fn beside(&self, suffix: &str) -> io::Result<Temporary> {
-        let name = self.folder.file_name().ok_or(io::ErrorKind::InvalidInput)?.to_string_lossy();
-        let folder = self.folder.with_file_name(format!(".{name}.{suffix}-{}", process::id()));
-        fs::create_dir(&folder)?;
-        Ok(Temporary(folder))
+        let name = self.folder.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+        let (name, process) = (name.to_string_lossy(), process::id());
+        // A killed run leaves its folder behind, and in containers process ids come back.
+        for attempt in 0.. {
+            let folder = self.folder.with_file_name(format!(".{name}.{suffix}-{process}-{attempt}"));
+            match fs::create_dir(&folder) {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                created => return created.map(|()| Temporary(folder)),
+            }
+        }
+        unreachable!("a file system holds fewer names than there are attempts")
     }
 }
 
@@ -135,6 +142,15 @@ mod tests {
         fs::create_dir(&empty).unwrap();
         publish(&empty, OURS).unwrap();
         assert_eq!(names(&empty), [SUMMARY]);
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_no_hindrance() {
+        let place = tempfile::tempdir().unwrap();
+        let leftover = format!(".out.partial-{}-0", process::id());
+        fs::create_dir(place.path().join(&leftover)).unwrap();
+        publish(&place.path().join("out"), OURS).unwrap();
+        assert!(place.path().join("out").join(SUMMARY).exists() && place.path().join(leftover).exists());
     }
 
     #[test]
