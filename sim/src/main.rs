@@ -1,3 +1,7 @@
 //! The `sunblind` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    sunblind_sim::cli::run()
+}

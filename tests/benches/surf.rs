@@ -9,7 +9,7 @@ use std::{env, fs};
 use sunblind_estimator::features::surf::{Surf, SurfParams};
 use sunblind_estimator::image::GrayImage;
 use sunblind_tests::pgm;
-use sunblind_tests::recorded::Recording;
+use sunblind_tests::recorded;
 
 /// Features that both must describe.
 const FEATURES: usize = 600;
@@ -27,8 +27,8 @@ struct Time {
 }
 
 fn main() {
-    let Some(recording) = Recording::open("kinect1_redkitchen") else { return };
-    let image = recording.colour(0).to_luma();
+    let Some(recording) = recorded::open("kinect1_redkitchen") else { return };
+    let image = recorded::frame(&recording, 0).rgb.to_luma();
     let dlib = Dlib::built(&image);
 
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());

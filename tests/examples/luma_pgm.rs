@@ -9,7 +9,7 @@ use std::{env, fs, io};
 
 use sunblind_tests::oracle::frame_pairs;
 use sunblind_tests::pgm;
-use sunblind_tests::recorded::Recording;
+use sunblind_tests::recorded;
 
 fn main() -> io::Result<()> {
     let folder = PathBuf::from(env::args_os().nth(1).expect("usage: luma_pgm FOLDER"));
@@ -19,8 +19,8 @@ fn main() -> io::Result<()> {
     fs::write(folder.join("pairs.txt"), names.concat())?;
 
     for frame in pairs.into_iter().flat_map(|(from, to)| [from, to]).collect::<BTreeSet<_>>() {
-        let recording = Recording::open(frame.recording).expect("the recordings");
-        pgm::write(&folder.join(frame.name() + ".pgm"), &recording.colour(frame.index).to_luma())?;
+        let recording = recorded::open(frame.recording).expect("the recordings");
+        pgm::write(&folder.join(frame.name() + ".pgm"), &recorded::frame(&recording, frame.index).rgb.to_luma())?;
     }
     Ok(())
 }

@@ -1,6 +1,9 @@
 //! Tests that cross crates live in `tests/`; this library holds what they share.
 
+pub mod command;
+pub mod fake_localizer;
 pub mod oracle;
 pub mod pgm;
 pub mod recorded;
 pub mod repeatability;
+pub mod tiny_recording;

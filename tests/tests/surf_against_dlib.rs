@@ -3,8 +3,9 @@
 use nalgebra::Point2;
 use sunblind_estimator::features::matching::{MatchParams, match_features};
 use sunblind_estimator::features::surf::{Feature, Surf, SurfParams};
+use sunblind_sim::record::Recording;
 use sunblind_tests::oracle::{DlibSurf, FrameId, colour_motion, frame_pairs};
-use sunblind_tests::recorded::Recording;
+use sunblind_tests::recorded;
 use sunblind_tests::repeatability::{Found, Keypoint, Score, View, score};
 
 /// Least share of dlib's repeatability and of its inlier matches.
@@ -18,7 +19,7 @@ const BORDER: f32 = 16.0;
 /// Everything that our detector finds above dlib's threshold, strongest first.
 fn detect(recording: &Recording, frame: &FrameId) -> Vec<Feature> {
     let params = SurfParams { max_features: usize::MAX / 2, min_response: 1.0, ..SurfParams::default() };
-    Surf::new(params).detect(&recording.colour(frame.index).to_luma())
+    Surf::new(params).detect(&recorded::frame(recording, frame.index).rgb.to_luma())
 }
 
 /// As many of them as dlib has, from the part of the image where dlib looks.
@@ -39,7 +40,8 @@ fn keypoint(feature: &Feature) -> Keypoint {
 
 /// Our score on one pair, and dlib's.
 fn scores(dlib: &DlibSurf, recording: &Recording, from: &FrameId, to: &FrameId) -> [Score; 2] {
-    let [first, second] = [from, to].map(|frame| View::new(&recording.rig, &recording.depth(frame.index)));
+    let [first, second] =
+        [from, to].map(|frame| View::new(&recording.rig, &recorded::frame(recording, frame.index).depth));
     let motion = colour_motion(from, to);
 
     let features = [from, to].map(|frame| as_many_as_dlib(detect(recording, frame), recording.rig.colour.size()));
@@ -60,7 +62,7 @@ fn ours_finds_spots_again_as_well_as_dlib() {
     println!("{:>42}{:>14}{:>14}{:>14}", "repeated %", "matches", "within 3 px", "within 5 px");
     println!("{:32}{}", "", "  ours   dlib".repeat(4));
     for (from, to) in &pairs {
-        let Some(recording) = Recording::open(from.recording) else { return };
+        let Some(recording) = recorded::open(from.recording) else { return };
         let [ours, theirs] = scores(&dlib, &recording, from, to);
         let table: String = [
             [ours, theirs].map(|score| 100.0 * score.repeatability()),
@@ -89,7 +91,7 @@ fn dlibs_keypoints_are_ours_too() {
     let dlib = DlibSurf::load();
     let (mut shared, mut total) = (0, 0);
     for (frame, _) in frame_pairs() {
-        let Some(recording) = Recording::open(frame.recording) else { return };
+        let Some(recording) = recorded::open(frame.recording) else { return };
         let ours: Vec<_> = detect(&recording, &frame).iter().map(keypoint).collect();
         let same = |theirs: &Keypoint, ours: &Keypoint| {
             (theirs.pixel - ours.pixel).norm() < 2.0 && (0.8..1.25).contains(&(ours.scale / theirs.scale))
@@ -108,8 +110,9 @@ fn dlibs_keypoints_are_ours_too() {
 fn the_judge_notices_a_wrong_motion() {
     let dlib = DlibSurf::load();
     for (from, to) in frame_pairs().into_iter().filter(|(from, to)| to.index - from.index >= 15) {
-        let Some(recording) = Recording::open(from.recording) else { return };
-        let [first, second] = [&from, &to].map(|frame| View::new(&recording.rig, &recording.depth(frame.index)));
+        let Some(recording) = recorded::open(from.recording) else { return };
+        let [first, second] =
+            [&from, &to].map(|frame| View::new(&recording.rig, &recorded::frame(&recording, frame.index).depth));
         let found = Found { from: dlib.keypoints(&from), to: dlib.keypoints(&to), matches: dlib.matches(&from, &to) };
         let motion = colour_motion(&from, &to);
         let right = score(&first, &second, &motion, found);

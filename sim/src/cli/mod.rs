@@ -1,1 +1,83 @@
-//! To come.
+//! The command line: reads arguments, runs a command, and turns what came of it into an exit code.
+
+pub mod bug;
+mod output;
+mod overrides;
+mod replay;
+mod table;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use sunblind_estimator::ParamError;
+use thiserror::Error;
+
+use crate::record::RecordError;
+use crate::runner::ReplayError;
+
+/// What the user gave can't be worked with.
+const BAD_INPUT: u8 = 2;
+
+const ABOUT: &str = "\
+A testbed for ground-robot localisation with a Kinect: replays recordings through the estimator that runs on the robot, \
+and shows how far from the truth it is.
+
+Exit codes:
+  0   done, and every expectation held
+  1   an expectation was missed
+  2   bad usage, or a recording that can't be used; the message says where and what to do
+  3   no graphics adapter
+  70  a bug in sunblind; please report it";
+
+#[derive(Parser)]
+#[command(name = "sunblind", version, about = "A testbed for ground-robot localisation", long_about = ABOUT)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Replay(replay::Replay),
+}
+
+/// Why a command failed: always something about what it was given.
+#[derive(Debug, Error)]
+enum Failure {
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Replay(#[from] ReplayError),
+    #[error("{0}; change it with --set or in the calibration")]
+    Params(#[from] ParamError),
+    #[error(transparent)]
+    Override(#[from] overrides::OverrideError),
+    #[error(transparent)]
+    Output(#[from] output::OutputError),
+}
+
+/// Runs the command that the process was started with.
+pub fn run() -> ExitCode {
+    bug::exit_on_panic();
+    let outcome = match Cli::parse().command {
+        Command::Replay(replay) => replay.run(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            tell(&format!("error: {failure}"));
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}
+
+/// A line for the user on standard error. A closed one is not worth failing for.
+fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// A result on standard output, which may be closed early (`sunblind … | head`).
+fn answer(text: &str) {
+    let _ = writeln!(io::stdout(), "{text}");
+}

@@ -1,3 +1,26 @@
 //! Drives localisers through a recording: the only caller of the estimator.
+//!
+//! [`replay`] is the way in. A localiser of your own is scored in a few lines:
+//!
+//! ```no_run
+//! use sunblind_sim::evaluation::evaluate;
+//! use sunblind_sim::record::Recording;
+//! use sunblind_sim::runner::{Driven, ReplayOptions, replay};
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let my_localizer: Box<dyn sunblind_estimator::Localizer + Send> = todo!();
+//! let recording = Recording::open("path/to/recording".as_ref(), None)?;
+//! let log = replay(&recording, vec![Driven::own("mine", "my localiser", my_localizer)], &ReplayOptions::default())?;
+//! let score = evaluate(&log.tracks[0].frames, &log.truth);
+//! # Ok(())
+//! # }
+//! ```
 
+mod driven;
+mod follower;
 pub mod log;
+mod replay;
+mod stage_clock;
+mod truth;
+
+pub use driven::Driven;
+pub use replay::{ReplayError, ReplayOptions, replay};
