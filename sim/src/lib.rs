@@ -8,3 +8,4 @@ pub mod record;
 pub mod report;
 pub mod runner;
 pub mod textured_room;
+pub mod world;
