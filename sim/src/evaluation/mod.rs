@@ -33,6 +33,8 @@ pub struct Evaluation {
     /// Absolute trajectory error: RMSE of the position after the best rigid alignment, without scale
     /// (`evo_ape tum truth.tum estimate.tum -a`).
     pub ate_m: f64,
+    /// Frames in 1 s, by the median time between two of them: what the relative pose error is taken over.
+    pub rpe_delta_frames: usize,
     /// Relative pose error over 1 s: RMSE of the translation over all pairs of frames that far apart
     /// (at 30 Hz `evo_rpe tum truth.tum estimate.tum --delta 30 --delta_unit f --all_pairs`).
     pub rpe_m: f64,
@@ -66,24 +68,26 @@ pub fn evaluate(frames: &[FrameLog], truth: &[StampedPose]) -> Option<Evaluation
     if pairs.len() < 3 {
         return None;
     }
+    let last = pairs.last()?;
     let position_errors = || pairs.iter().map(|pair| pair.estimate.translation.vector - pair.truth.translation.vector);
     let lengths = drift::path_lengths(&pairs);
-    let second = relative_errors(&pairs, frames_in_a_second(&pairs));
+    let times: Vec<Timestamp> = pairs.iter().map(|pair| pair.time).collect();
+    let rpe_delta_frames = ((1.0 / median_interval(&times)?).round() as usize).max(1);
+    let second = relative_errors(&pairs, rpe_delta_frames);
     let frame = relative_errors(&pairs, 1);
     Some(Evaluation {
         rmse_x_m: root_mean_square(position_errors().map(|error| error.x)),
         rmse_y_m: root_mean_square(position_errors().map(|error| error.y)),
-        rmse_theta_deg: root_mean_square(
-            pairs.iter().map(|pair| pair.truth.rotation.angle_to(&pair.estimate.rotation)),
-        )
-        .to_degrees(),
+        rmse_theta_deg: root_mean_square(pairs.iter().map(|pair| rotation_error(&pair.estimate, &pair.truth)))
+            .to_degrees(),
         ate_m: alignment::aligned_rmse(&pairs),
+        rpe_delta_frames,
         rpe_m: root_mean_square(second.iter().map(translation)),
         rpe_deg: root_mean_square(second.iter().map(rotation)).to_degrees(),
         rpe_frame_m: root_mean_square(frame.iter().map(translation)),
         rpe_frame_deg: root_mean_square(frame.iter().map(rotation)).to_degrees(),
         drift_percent: 100.0 * drift::mean_drift(&pairs, &lengths),
-        end_error_m: position_errors().last()?.norm(),
+        end_error_m: position_error(&last.estimate, &last.truth),
         path_m: *lengths.last()?,
     })
 }
@@ -92,6 +96,16 @@ pub fn evaluate(frames: &[FrameLog], truth: &[StampedPose]) -> Option<Evaluation
 pub fn true_pose_at(truth: &[StampedPose], time: Timestamp) -> Option<Isometry3<f64>> {
     let index = truth.binary_search_by_key(&time, |pose| pose.time).ok()?;
     Some(truth[index].world_from_body)
+}
+
+/// Distance of a pose from the true one, metres.
+pub fn position_error(world_from_body: &Isometry3<f64>, truth: &Isometry3<f64>) -> f64 {
+    (world_from_body.translation.vector - truth.translation.vector).norm()
+}
+
+/// Angle of the rotation between a pose and the true one, radians.
+pub fn rotation_error(world_from_body: &Isometry3<f64>, truth: &Isometry3<f64>) -> f64 {
+    truth.rotation.angle_to(&world_from_body.rotation)
 }
 
 fn pair_by_time(frames: &[FrameLog], truth: &[StampedPose]) -> Vec<PosePair> {
@@ -104,11 +118,11 @@ fn pair_by_time(frames: &[FrameLog], truth: &[StampedPose]) -> Vec<PosePair> {
         .collect()
 }
 
-/// How many median frame intervals make a second; at least 1.
-fn frames_in_a_second(pairs: &[PosePair]) -> usize {
-    let mut intervals: Vec<f64> = pairs.windows(2).map(|pair| pair[1].time.since(pair[0].time)).collect();
+/// The median time from one instant to the next, seconds; `None` of fewer than two.
+pub(crate) fn median_interval(times: &[Timestamp]) -> Option<f64> {
+    let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1].since(pair[0])).collect();
     intervals.sort_by(f64::total_cmp);
-    ((1.0 / intervals[intervals.len() / 2]).round() as usize).max(1)
+    intervals.get(intervals.len() / 2).copied()
 }
 
 /// The relative pose errors E of Sturm et al. (IROS 2012), eq. 1, over all pairs `delta` frames apart.
