@@ -62,6 +62,7 @@ impl EstimatorParams {
             at_least_one("keyframes.window", self.keyframes.window),
             positive("keyframes.max_flow_px", self.keyframes.max_flow),
             share("keyframes.min_overlap", self.keyframes.min_overlap),
+            share("keyframes.systematic_share", self.keyframes.systematic_share),
             positive("keyframes.lost_sigma_m", self.keyframes.lost_translation),
             positive("keyframes.lost_sigma_rad", self.keyframes.lost_rotation),
             positive("paper.max_distance_m", self.paper.max_distance),

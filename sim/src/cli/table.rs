@@ -23,8 +23,11 @@ pub(super) fn of(log: &RunLog) -> String {
 
 fn row(track: &Track, log: &RunLog) -> [String; HEADER.len()] {
     let score = evaluate(&track.frames, &log.truth);
-    let metric =
-        |value: Option<f64>, digits: usize| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"));
+    // A metric that the recording is too short for is NaN.
+    let metric = |value: Option<f64>, digits: usize| match value.filter(|value| value.is_finite()) {
+        Some(value) => format!("{value:.digits$}"),
+        None => "–".to_owned(),
+    };
     let lost = track.frames.iter().filter(|frame| matches!(frame.health, Health::Lost(_))).count();
     let spent_ms: f64 = track.frames.iter().flat_map(|frame| frame.stage_ms).sum();
     let timed = spent_ms > 0.0;
