@@ -1,0 +1,31 @@
+# The commands of README.md. One optimised build serves them all.
+
+OUT := out
+SUNBLIND := target/release/sunblind
+
+.PHONY: help build demo test lint bench clean
+
+help: ## what there is
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /\1\t/' | expand -t 10
+
+build: ## the sunblind command
+	cargo build --release --workspace
+
+demo: build ## records a room with known truth, replays it, ends with a report
+	$(SUNBLIND) record scenarios/textured_room.toml --out $(OUT)/textured_room
+	$(SUNBLIND) replay $(OUT)/textured_room --out $(OUT)/demo
+	@.ci/show $(OUT)/demo/report.html
+
+test: build ## formatting and every test
+	cargo fmt --check
+	cargo test --release --workspace
+
+lint: ## clippy, warnings are errors
+	cargo clippy --release --workspace --all-targets -- -D warnings
+
+bench: build ## times a frame, and SURF beside dlib's where that is built (needs recorded data)
+	cargo bench -p sunblind-tests
+
+clean: ## forgets builds and outputs
+	cargo clean
+	rm -rf $(OUT)
