@@ -91,3 +91,51 @@ pub fn lift(feature: &Feature, depth: &RegisteredDepth, camera: &CameraModel, no
     let along = ray * ray.transpose() * (sigma_z * sigma_z);
     Some(Landmark { position: Point3::from(ray * z), covariance: across + along })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Rig;
+
+    fn feature(x: f32, y: f32) -> Feature {
+        Feature { x, y, scale: 2.0, orientation: 0.0, response: 1.0, laplacian_positive: true, descriptor: [0.0; 64] }
+    }
+
+    fn lifted(depth: &RegisteredDepth, x: f32, y: f32) -> Option<Landmark> {
+        lift(&feature(x, y), depth, &Rig::kinect_default().colour, &DepthNoise::default())
+    }
+
+    #[test]
+    fn twice_as_far_is_four_times_as_uncertain() {
+        let sigma = |z: f32| {
+            let landmark = lifted(&RegisteredDepth::filled(640, 480, z), 319.5, 239.5).unwrap();
+            assert!((landmark.position.z - f64::from(z)).abs() < 1e-6);
+            landmark.covariance[(2, 2)].sqrt()
+        };
+        // Half of Kinect's step at 2 m: 5.7 mm (Khoshelham & Elberink 2012).
+        assert!((sigma(2.0) - 0.0057).abs() < 1e-4);
+        assert!((sigma(4.0) / sigma(2.0) - 4.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_point_on_an_edge_is_trusted_less() {
+        let mut depth = RegisteredDepth::filled(640, 480, 3.0);
+        for row in depth.pixels_mut().chunks_mut(640) {
+            row[320..].fill(1.0);
+        }
+        let sigma = |x: f32| lifted(&depth, x, 240.0).unwrap().covariance[(2, 2)].sqrt();
+        assert!(sigma(320.0) > 0.5);
+        assert!(sigma(340.0) < 0.01);
+    }
+
+    #[test]
+    fn no_depth_no_landmark() {
+        let nothing = RegisteredDepth::filled(640, 480, 0.0);
+        assert_eq!(lifted(&nothing, 320.0, 240.0), None);
+        assert_eq!(lifted(&RegisteredDepth::filled(640, 480, 9.5), 320.0, 240.0), None);
+        // In a corner there is only a quarter of the window.
+        for (x, y) in [(-0.4, 0.0), (639.0, 479.4), (639.4, 0.0), (0.0, 479.0)] {
+            assert_eq!(lifted(&RegisteredDepth::filled(640, 480, 2.0), x, y), None);
+        }
+    }
+}

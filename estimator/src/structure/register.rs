@@ -125,3 +125,102 @@ impl Lens {
         (self.fx * xd + self.cx, self.fy * yd + self.cy)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{CameraModel, DepthEncoding, Distortion};
+    use nalgebra::{Isometry3, Point3};
+
+    /// Two cameras of a Kinect, small: depth sees more finely than colour, from 25 mm beside it, slightly turned.
+    fn rig() -> Rig {
+        let colour = CameraModel {
+            width: 160,
+            height: 120,
+            fx: 131.0,
+            fy: 131.0,
+            cx: 79.0,
+            cy: 61.0,
+            distortion: Distortion { k1: 0.26, k2: -0.95, p1: -0.005, p2: 0.003, k3: 1.16 },
+        };
+        let depth =
+            CameraModel { fx: 146.0, fy: 146.0, cx: 80.0, cy: 59.5, distortion: Distortion::default(), ..colour };
+        Rig {
+            colour,
+            depth: DepthCamera {
+                model: depth,
+                encoding: DepthEncoding::Linear { units_per_metre: 1000.0 },
+                registered_to_colour: false,
+            },
+            colour_from_depth: Isometry3::new(Vector3::new(-0.025, 0.001, 0.0), Vector3::new(0.0, 0.01, 0.005)),
+            robot_from_colour: Isometry3::identity(),
+        }
+    }
+
+    #[test]
+    fn a_wall_keeps_its_distance_and_has_no_holes() {
+        let rig = rig();
+        let registered = Registration::new(&rig).register(&DepthImage::filled(160, 120, 2000));
+        // Away from the rim, where the depth camera does not look.
+        for y in 25..95 {
+            for x in 25..135 {
+                let z = registered.at(x, y);
+                assert!((z - 2.0).abs() < 0.02, "({x}, {y}): {z}");
+            }
+        }
+    }
+
+    #[test]
+    fn it_equals_the_plain_projection() {
+        // One depth pixel at a time, through the f64 camera model.
+        let rig = rig();
+        let registration = Registration::new(&rig);
+        for (x, y, value) in [(40, 30, 900_u16), (80, 60, 2500), (120, 90, 4000), (100, 25, 1500)] {
+            let mut depth = DepthImage::filled(160, 120, 0);
+            depth.pixels_mut()[y * 160 + x] = value;
+            let registered = registration.register(&depth);
+            let ray = rig.depth.model.ray(&Point2::new(x as f64, y as f64));
+            let point = rig.colour_from_depth * Point3::from(ray * (f64::from(value) / 1000.0));
+            let pixel = rig.colour.project(&point).unwrap();
+            let found = registered.at(pixel.x.round() as usize, pixel.y.round() as usize);
+            assert!((f64::from(found) - point.z).abs() < 1e-4, "{found} at {pixel}");
+            assert_eq!(registered.pixels().iter().filter(|&&z| z > 0.0).count(), 1);
+        }
+    }
+
+    #[test]
+    fn the_nearer_surface_hides_the_farther() {
+        // A near half in front of a far wall: the baseline moves it across pixels that the wall reaches too.
+        let rig = rig();
+        let mut depth = DepthImage::filled(160, 120, 4000);
+        for row in depth.pixels_mut().chunks_mut(160) {
+            row[80..].fill(800);
+        }
+        let registered = Registration::new(&rig).register(&depth);
+        let edge = rig
+            .colour
+            .project(&(rig.colour_from_depth * Point3::from(rig.depth.model.ray(&Point2::new(80.0, 60.0)) * 0.8)));
+        let edge = edge.unwrap().x.round() as usize;
+        for x in edge + 1..edge + 20 {
+            assert!((registered.at(x, 60) - 0.8).abs() < 0.02, "{x}: {}", registered.at(x, 60));
+        }
+    }
+
+    #[test]
+    fn registered_depth_passes_as_it_is() {
+        let mut rig = rig();
+        rig.depth.registered_to_colour = true;
+        let mut depth = DepthImage::filled(160, 120, 1234);
+        depth.pixels_mut()[7] = 0;
+        let registered = Registration::new(&rig).register(&depth);
+        assert_eq!(registered.at(7, 0), 0.0);
+        assert!((registered.at(8, 0) - 1.234).abs() < 1e-6);
+    }
+
+    #[test]
+    fn floor_is_floor() {
+        for value in [-3.2_f32, -1.0, -0.1, 0.0, 0.9, 1.0, 639.99] {
+            assert_eq!(floor(value), value.floor() as i32, "{value}");
+        }
+    }
+}
