@@ -4,7 +4,9 @@
 
 pub mod cli;
 pub mod evaluation;
+pub mod random;
 pub mod record;
 pub mod report;
 pub mod runner;
+pub mod scenario;
 pub mod textured_room;
