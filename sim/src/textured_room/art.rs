@@ -153,5 +153,6 @@ pub fn view(at: Vec2, size: Vec2) -> Vec3 {
     if uv.y < 0.14 {
         colour = linear(0x7c_98_58) * (0.7 + 0.6 * fractal(at * 40.0, 3, 145));
     }
-    colour
+    // Exposed for the room, the world outside washes out.
+    (colour * 1.5).lerp(Vec3::splat(1.5), 0.25)
 }

@@ -1,6 +1,6 @@
 //! The colour camera: light through a lens onto a Bayer mosaic, its noise, and the picture made of it.
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3A};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use sunblind_estimator::camera::CameraModel;
@@ -10,10 +10,25 @@ use super::lens::Lens;
 use super::solid::Ray;
 use super::world::{Pose, World};
 
-/// Samples of a pixel, each at its own instant of the exposure and its own spot (pixels from the centre): a rotated
-/// grid, which smooths edges of every direction, a little wider than the pixel, as a lens blurs.
-pub const SAMPLES: [Vec2; 4] =
-    [Vec2::new(-0.15, -0.45), Vec2::new(0.45, -0.15), Vec2::new(0.15, 0.45), Vec2::new(-0.45, 0.15)];
+/// A sample of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Pixels from the centre.
+    offset: Vec2,
+    /// When, in exposures from its middle.
+    pub when: f64,
+}
+
+const fn sample(x: f32, y: f32, when: f64) -> Sample {
+    Sample { offset: Vec2::new(x, y), when }
+}
+
+/// A rotated grid, which smooths edges of every direction, a little wider than the pixel, as a lens blurs. The first
+/// two alone have the mean and about the spread of a whole exposure.
+pub const SAMPLES: [Sample; 4] =
+    [sample(-0.25, -0.5, -0.3), sample(0.25, 0.5, 0.3), sample(0.5, -0.25, -0.1), sample(-0.5, 0.25, 0.1)];
+/// Width of a sample in pixels: what lies between two samples is not to be missed.
+const SAMPLE_WIDTH: f64 = 0.8;
 /// What a full pixel holds at the gain an indoor picture needs, electrons: a guess at gain 8 of a sensor with a full
 /// well of 25,000.
 const FULL: f32 = 3000.0;
@@ -42,7 +57,7 @@ impl ColourCamera {
             lens: Lens::new(model),
             width: model.width,
             height: model.height,
-            sample_angle: (0.6 / model.fx) as f32,
+            sample_angle: (SAMPLE_WIDTH / model.fx) as f32,
             pixels_per_unit: Vec2::new(model.fx as f32, model.fy as f32),
             tone: (0..4096).map(tone).collect(),
         }
@@ -52,21 +67,30 @@ impl ColourCamera {
     pub fn shoot(&self, world: &World, poses: &[Pose; 4], noise: Option<ChaCha8Rng>) -> RgbImage {
         let mut mosaic = vec![0.0; self.width * self.height];
         self.lens.by_tiles(world.scene(), poses, 0.0, |pixels, candidates| {
+            let mut guess = 0;
             for &pixel in pixels {
                 let centre = self.lens.ray(pixel);
-                let mut light = Vec3::ZERO;
-                for (pose, offset) in poses.iter().zip(SAMPLES) {
-                    let offset = offset / self.pixels_per_unit;
+                let mut look = |sample: usize| {
+                    let offset = SAMPLES[sample].offset / self.pixels_per_unit;
+                    let pose = &poses[sample];
                     let ray = Ray {
                         origin: pose.position,
-                        direction: pose.rotation * (centre + Vec3::new(offset.x, offset.y, 0.0)),
+                        direction: pose.rotation * (centre + Vec3A::new(offset.x, offset.y, 0.0)),
                     };
-                    light += world.colour(&ray, &candidates.first_hit(&ray), self.sample_angle);
-                }
+                    let hit = candidates.first_hit_near(&ray, guess);
+                    guess = hit.solid;
+                    (world.colour(&ray, &hit, self.sample_angle), (hit.solid, hit.face))
+                };
+                let (first, second) = (look(0), look(1));
+                // Where both see the same face there is no edge to smooth.
+                let light = match first.1 == second.1 {
+                    true => (first.0 + second.0) / 2.0,
+                    false => (first.0 + second.0 + look(2).0 + look(3).0) / 4.0,
+                };
                 let cos_squared = 1.0 / centre.length_squared();
                 let vignette = 1.0 - VIGNETTING * (1.0 - cos_squared * cos_squared);
                 let site = channel(pixel % self.width, pixel / self.width);
-                mosaic[pixel] = light[site] / SAMPLES.len() as f32 * vignette * EXPOSURE;
+                mosaic[pixel] = light[site] * vignette * EXPOSURE;
             }
         });
         if let Some(mut noise) = noise {

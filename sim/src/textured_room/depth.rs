@@ -3,7 +3,7 @@
 //! A shortcut, **not the Kinect synthesis**: the real device finds depth by matching its dots in the infrared image,
 //! where shadow, drop-out and noise come about by themselves. Here each is put on from published numbers.
 
-use glam::Vec3;
+use glam::Vec3A;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -73,13 +73,15 @@ impl DepthSensor {
     fn disparity(&self, world: &World, pose: &Pose) -> Vec<Dot> {
         let (width, height) = self.camera.model.size();
         let mut dots = vec![Dot::NONE; width * height];
-        let projector = pose.position + pose.rotation * (Vec3::X * BASELINE as f32);
+        let projector = pose.position + pose.rotation * (Vec3A::X * BASELINE as f32);
         let solids = world.scene().solids();
         self.lens.by_tiles(world.scene(), &[*pose], BASELINE as f32, |pixels, candidates| {
+            let mut solid = 0;
             for &pixel in pixels {
                 let ray = Ray { origin: pose.position, direction: pose.rotation * self.lens.ray(pixel) };
-                let hit = candidates.first_hit(&ray);
-                let solid = &solids[hit.solid];
+                let hit = candidates.first_hit_near(&ray, solid);
+                solid = hit.solid;
+                let solid = &solids[solid];
                 let point = ray.at(hit.t);
                 let normal = solid.normal(hit.face, point);
                 let to_projector = projector - point;

@@ -60,13 +60,13 @@ pub fn sofa() -> Vec<Solid> {
         let seat = Solid::new(Shape::Box, Vec3::new(x, -0.08, 0.385), Vec3::new(0.67, 0.66, 0.14), cloth);
         parts.push(seat.turned(Mat3::from_rotation_x(0.02)));
     }
-    let cushion = |x: f32, yaw: f32, colour: u32| {
-        let rotation = Mat3::from_rotation_z(yaw) * Mat3::from_rotation_x(-0.45) * Mat3::from_rotation_y(0.15);
-        Solid::new(Shape::Ellipsoid, Vec3::new(x, 0.14, 0.63), Vec3::new(0.50, 0.20, 0.46), Material::Cloth(colour))
+    let cushion = |x: f32, yaw: f32, roll: f32, colour: u32| {
+        let rotation = Mat3::from_rotation_z(yaw) * Mat3::from_rotation_x(-0.4) * Mat3::from_rotation_y(roll);
+        Solid::new(Shape::Box, Vec3::new(x, 0.12, 0.65), Vec3::new(0.40, 0.11, 0.40), Material::Cloth(colour))
             .turned(rotation)
     };
-    parts.push(cushion(-0.45, 0.2, 0xc8_8a_3a));
-    parts.push(cushion(0.42, -0.25, 0xb4_4e_42));
+    parts.push(cushion(-0.45, 0.25, 0.10, 0xc8_8a_3a));
+    parts.push(cushion(0.40, -0.3, -0.2, 0xb4_4e_42));
     let throw = Solid::new(Shape::Box, Vec3::new(0.77, -0.05, 0.42), Vec3::new(0.19, 0.45, 0.39), Material::Rug);
     parts.push(throw);
     for (x, y) in [(-0.78, -0.36), (0.78, -0.36), (-0.78, 0.36), (0.78, 0.36)] {

@@ -3,11 +3,11 @@
 //!
 //! Brightness is relative: irradiance 1 on white paper shows as white paper. The numbers are chosen by eye.
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec3A};
 
 use super::layout::{CEILING_LAMP, CEILING_LAMPS, ROOM, WINDOW};
 use super::noise::smoothstep;
-use super::scene::{Cone, Scene};
+use super::scene::{Bundle, Scene};
 use super::solid::Ray;
 
 /// How far the surroundings take ambient light away, metres.
@@ -19,9 +19,10 @@ const LIFT: f32 = 0.004;
 
 /// A shining rectangle, as a grid of points.
 struct Lamp {
-    points: Vec<Vec3>,
+    /// Four rows of four.
+    points: [Vec3A; 16],
     /// Where it shines; `None`: everywhere.
-    normal: Option<Vec3>,
+    normal: Option<Vec3A>,
     /// Brightness times area, shared by the points.
     power: Vec3,
 }
@@ -31,7 +32,7 @@ pub struct Light<'a> {
     scene: &'a Scene,
     lamps: Vec<Lamp>,
     /// Cosine-distributed about +z.
-    directions: Vec<Vec3>,
+    directions: Vec<Vec3A>,
 }
 
 impl<'a> Light<'a> {
@@ -40,28 +41,30 @@ impl<'a> Light<'a> {
         let [(left, low), (right, high)] = WINDOW;
         let window = Vec3::new((left + right) / 2.0, ROOM.y - 0.24, (low + high) / 2.0);
         let mut lamps = vec![
-            lamp(window, Vec3::X * (right - left), Vec3::Z * (high - low), Some(Vec3::NEG_Y), Vec3::new(0.98, 1.12, 1.28)),
+            lamp(window, Vec3::X * (right - left), Vec3::Z * (high - low), Some(Vec3A::NEG_Y), Vec3::new(0.98, 1.12, 1.28)),
             lamp(Vec3::new(3.98, 4.7, 1.74), Vec3::X * 0.1, Vec3::Y * 0.1, None, Vec3::new(0.13, 0.095, 0.055)),
         ];
         lamps.extend(CEILING_LAMPS.map(|centre| {
             let below = centre - Vec3::Z * (CEILING_LAMP.z / 2.0 + LIFT);
-            lamp(below, Vec3::X * CEILING_LAMP.x, Vec3::Y * CEILING_LAMP.y, Some(Vec3::NEG_Z), Vec3::new(0.62, 0.58, 0.50))
+            lamp(below, Vec3::X * CEILING_LAMP.x, Vec3::Y * CEILING_LAMP.y, Some(Vec3A::NEG_Z), Vec3::new(0.62, 0.58, 0.50))
         }));
         Self { scene, lamps, directions: hemisphere() }
     }
 
     /// Irradiance, linear RGB, on a spot with a unit normal.
-    pub fn at(&self, point: Vec3, normal: Vec3) -> Vec3 {
+    pub fn at(&self, point: Vec3A, normal: Vec3A) -> Vec3 {
         let point = point + normal * LIFT;
         self.lamps.iter().map(|lamp| self.direct(lamp, point, normal)).sum::<Vec3>() + self.ambient(point, normal)
     }
 
-    fn direct(&self, lamp: &Lamp, point: Vec3, normal: Vec3) -> Vec3 {
-        let offsets: Vec<Vec3> = lamp.points.iter().map(|&from| from - point).collect();
-        let candidates = self.scene.candidates(&Cone::around(point, &offsets, 0.0));
-        let seen: f32 = offsets
+    fn direct(&self, lamp: &Lamp, point: Vec3A, normal: Vec3A) -> Vec3 {
+        let corners = [0, 3, 15, 12].map(|corner| lamp.points[corner] - point);
+        let candidates = self.scene.candidates(&Bundle::between(point, corners, LIFT));
+        let seen: f32 = lamp
+            .points
             .iter()
-            .map(|&offset| {
+            .map(|&from| {
+                let offset = from - point;
                 let squared = offset.length_squared();
                 let towards = offset / squared.sqrt();
                 let arriving = normal.dot(towards).max(0.0) * lamp.normal.map_or(1.0, |way| -way.dot(towards)).max(0.0);
@@ -71,12 +74,12 @@ impl<'a> Light<'a> {
                 arriving / squared.max(0.02)
             })
             .sum();
-        lamp.power * (seen / offsets.len() as f32)
+        lamp.power * (seen / lamp.points.len() as f32)
     }
 
     /// Light that has been thrown to and fro: brighter from above than from the wooden floor, and less of it where
     /// something is close.
-    fn ambient(&self, point: Vec3, normal: Vec3) -> Vec3 {
+    fn ambient(&self, point: Vec3A, normal: Vec3A) -> Vec3 {
         let candidates = self.scene.within(point, REACH);
         let (side, other) = normal.any_orthonormal_pair();
         let gathered: Vec3 = self
@@ -94,22 +97,22 @@ impl<'a> Light<'a> {
     }
 }
 
-fn lamp(centre: Vec3, width: Vec3, height: Vec3, normal: Option<Vec3>, power: Vec3) -> Lamp {
-    let points = (0..16).map(|index| {
+fn lamp(centre: Vec3, width: Vec3, height: Vec3, normal: Option<Vec3A>, power: Vec3) -> Lamp {
+    let points = std::array::from_fn(|index| {
         let share = Vec2::new((index % 4) as f32, (index / 4) as f32) / 4.0 - 0.375;
-        centre + width * share.x + height * share.y
+        Vec3A::from(centre + width * share.x + height * share.y)
     });
-    Lamp { points: points.collect(), normal, power }
+    Lamp { points, normal, power }
 }
 
 /// A spiral over the disc, lifted onto the hemisphere: even in solid angle times cosine.
-fn hemisphere() -> Vec<Vec3> {
+fn hemisphere() -> Vec<Vec3A> {
     const GOLDEN_ANGLE: f32 = 2.399_963;
     (0..DIRECTIONS)
         .map(|index| {
             let squared = (index as f32 + 0.5) / DIRECTIONS as f32;
             let (sin, cos) = (GOLDEN_ANGLE * index as f32).sin_cos();
-            Vec3::new(squared.sqrt() * cos, squared.sqrt() * sin, (1.0 - squared).sqrt())
+            Vec3A::new(squared.sqrt() * cos, squared.sqrt() * sin, (1.0 - squared).sqrt())
         })
         .collect()
 }

@@ -94,9 +94,9 @@ impl TexturedRoom {
         let time = scenario.time_of(index);
         let world_from_depth = world_from_camera(time);
         let depth_from_colour = self.rig.colour_from_depth.inverse();
-        let during_exposure = std::array::from_fn(|sample| {
-            let share = (sample as f64 + 0.5) / SAMPLES.len() as f64 - 0.5;
-            Pose::from(&(world_from_camera(time + share * EXPOSURE) * depth_from_colour))
+        let during_exposure = std::array::from_fn(|sample: usize| {
+            let when: f64 = time + EXPOSURE * SAMPLES[sample].when;
+            Pose::from(&(world_from_camera(when) * depth_from_colour))
         });
         Frame {
             rgb: self.colour.shoot(&self.world, &during_exposure, noise("colour noise", scenario.kinect.colour_noise)),

@@ -19,9 +19,10 @@ pub fn cell(x: i32, y: i32, seed: u32) -> f32 {
 
 /// Noise in [0, 1) that varies over a length of 1.
 pub fn value(at: Vec2, seed: u32) -> f32 {
-    let floor = at.floor();
-    let (x, y) = (floor.x as i32, floor.y as i32);
-    let t = at - floor;
+    // Vec2::floor is a call into the C library where the target has no instruction for it, and textures live here.
+    let floor = |x: f32| x as i32 - i32::from(x < 0.0);
+    let (x, y) = (floor(at.x), floor(at.y));
+    let t = at - Vec2::new(x as f32, y as f32);
     let t = t * t * (3.0 - 2.0 * t);
     let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
     mix(

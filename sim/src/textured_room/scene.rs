@@ -1,6 +1,6 @@
 //! All solids together, and which of them a bundle of rays can meet.
 
-use glam::Vec3;
+use glam::Vec3A;
 
 use super::solid::{Face, Ray, Solid};
 
@@ -20,40 +20,28 @@ pub struct Hit {
     pub face: Face,
 }
 
-/// Rays within `half_angle` of `axis` (unit) that start within `slack` metres of `apex`.
-#[derive(Clone, Copy, Debug)]
-pub struct Cone {
-    /// Where the rays start.
-    pub apex: Vec3,
-    /// The middle direction.
-    pub axis: Vec3,
-    /// Cosine of the half angle.
-    pub cos: f32,
-    /// How far from the apex rays may start, metres.
-    pub slack: f32,
+/// Rays that start close to one point and lie between four planes through it.
+pub struct Bundle {
+    apex: Vec3A,
+    /// Unit normals of the planes, inwards.
+    sides: [Vec3A; 4],
+    /// How far a ray can be outside of the planes, metres.
+    slack: f32,
 }
 
-impl Cone {
-    /// The narrowest about the mean of some directions (of any length).
-    pub fn around(apex: Vec3, directions: &[Vec3], slack: f32) -> Self {
-        let axis = directions.iter().map(|direction| direction.normalize()).sum::<Vec3>().normalize();
-        let cos = directions.iter().map(|direction| axis.dot(direction.normalize())).fold(1.0, f32::min);
-        Self { apex, axis, cos, slack }
-    }
-
-    /// Distance from which on the cone's rays can meet a sphere; `None` when they can't.
-    fn reaches(&self, centre: Vec3, radius: f32) -> Option<f32> {
-        let radius = radius + self.slack;
-        let offset = centre - self.apex;
-        let along = offset.dot(self.axis);
-        let across = (offset.length_squared() - along * along).max(0.0).sqrt();
-        let sin = (1.0 - self.cos * self.cos).max(0.0).sqrt();
-        let beside = across * self.cos - along * sin;
-        (beside < radius && along > -radius).then(|| (offset.length() - radius).max(0.0))
+impl Bundle {
+    /// The rays between four directions (of any length), in order around their middle.
+    pub fn between(apex: Vec3A, corners: [Vec3A; 4], slack: f32) -> Self {
+        let middle: Vec3A = corners.iter().sum();
+        let sides = std::array::from_fn(|index| {
+            let normal = corners[index].cross(corners[(index + 1) % 4]).normalize();
+            normal * normal.dot(middle).signum()
+        });
+        Self { apex, sides, slack }
     }
 }
 
-/// Solids that a cone of rays can meet, nearest first; the room itself is left out.
+/// Solids that some rays can meet, nearest first; the room itself is left out.
 pub struct Candidates<'a> {
     scene: &'a Scene,
     nearest_first: Vec<(f32, usize)>,
@@ -70,17 +58,18 @@ impl Scene {
         &self.solids
     }
 
-    /// What the rays of a cone can meet.
-    pub fn candidates(&self, cone: &Cone) -> Candidates<'_> {
-        self.gather(|solid| cone.reaches(solid.centre(), solid.radius()))
+    /// What the rays of a bundle can meet.
+    pub fn candidates(&self, bundle: &Bundle) -> Candidates<'_> {
+        self.gather(|solid| {
+            let offset = solid.centre() - bundle.apex;
+            let is_met = |side: &Vec3A| offset.dot(*side) + solid.extent(*side) > -bundle.slack;
+            bundle.sides.iter().all(is_met).then(|| solid.distance(bundle.apex) - bundle.slack)
+        })
     }
 
     /// What can be met within `reach` metres of a point.
-    pub fn within(&self, point: Vec3, reach: f32) -> Candidates<'_> {
-        self.gather(|solid| {
-            let distance = solid.centre().distance(point) - solid.radius();
-            (distance < reach).then_some(distance)
-        })
+    pub fn within(&self, point: Vec3A, reach: f32) -> Candidates<'_> {
+        self.gather(|solid| Some(solid.distance(point)).filter(|&distance| distance < reach))
     }
 
     /// The things for which `distance` has an answer.
@@ -94,11 +83,19 @@ impl Scene {
 }
 
 impl Candidates<'_> {
-    /// The first surface along a ray of the cone. There always is one: the room's.
+    /// The first surface along one of the rays. There always is one: the room's.
     pub fn first_hit(&self, ray: &Ray) -> Hit {
+        self.first_hit_near(ray, 0)
+    }
+
+    /// As [`first_hit`](Self::first_hit), sooner if `guess` is the solid that a neighbouring ray hit.
+    pub fn first_hit_near(&self, ray: &Ray, guess: usize) -> Hit {
         let solids = &self.scene.solids;
-        let (t, face) = solids[0].hit(ray).unwrap_or((f32::INFINITY, Face::Up));
-        let mut first = Hit { t, solid: 0, face };
+        let (t, face, solid) = match solids[guess].hit(ray) {
+            Some((t, face)) => (t, face, guess),
+            None => solids[0].hit(ray).map_or((f32::INFINITY, Face::Up, 0), |(t, face)| (t, face, 0)),
+        };
+        let mut first = Hit { t, solid, face };
         let length = ray.direction.length();
         for &(distance, solid) in &self.nearest_first {
             if distance > first.t * length {

@@ -1,6 +1,6 @@
 //! Solids: what the room is built of, how a ray meets them, and how a picture lies on them.
 
-use glam::{Mat3, Vec2, Vec3};
+use glam::{Mat3, Mat3A, Vec2, Vec3, Vec3A};
 use std::f32::consts::{PI, TAU};
 
 use super::material::Material;
@@ -42,14 +42,14 @@ impl Face {
     pub const ALL: [Self; 6] = [Self::East, Self::West, Self::North, Self::South, Self::Up, Self::Down];
 
     /// Outward, and to the right and upwards for someone who looks at the face from outside.
-    fn axes(self) -> (Vec3, Vec3, Vec3) {
+    fn axes(self) -> (Vec3A, Vec3A, Vec3A) {
         match self {
-            Self::East => (Vec3::X, Vec3::Y, Vec3::Z),
-            Self::West => (Vec3::NEG_X, Vec3::NEG_Y, Vec3::Z),
-            Self::North => (Vec3::Y, Vec3::NEG_X, Vec3::Z),
-            Self::South => (Vec3::NEG_Y, Vec3::X, Vec3::Z),
-            Self::Up => (Vec3::Z, Vec3::X, Vec3::Y),
-            Self::Down => (Vec3::NEG_Z, Vec3::X, Vec3::NEG_Y),
+            Self::East => (Vec3A::X, Vec3A::Y, Vec3A::Z),
+            Self::West => (Vec3A::NEG_X, Vec3A::NEG_Y, Vec3A::Z),
+            Self::North => (Vec3A::Y, Vec3A::NEG_X, Vec3A::Z),
+            Self::South => (Vec3A::NEG_Y, Vec3A::X, Vec3A::Z),
+            Self::Up => (Vec3A::Z, Vec3A::X, Vec3A::Y),
+            Self::Down => (Vec3A::NEG_Z, Vec3A::X, Vec3A::NEG_Y),
         }
     }
 
@@ -63,14 +63,14 @@ impl Face {
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
     /// Where t = 0.
-    pub origin: Vec3,
+    pub origin: Vec3A,
     /// Change of the point per unit of t; any length.
-    pub direction: Vec3,
+    pub direction: Vec3A,
 }
 
 impl Ray {
     /// The point at `t`.
-    pub fn at(&self, t: f32) -> Vec3 {
+    pub fn at(&self, t: f32) -> Vec3A {
         self.origin + self.direction * t
     }
 }
@@ -79,16 +79,17 @@ impl Ray {
 #[derive(Clone, Debug)]
 pub struct Solid {
     shape: Shape,
-    half: Vec3,
-    centre: Vec3,
-    solid_from_room: Mat3,
+    half: Vec3A,
+    centre: Vec3A,
+    solid_from_room: Mat3A,
     materials: [Material; 6],
 }
 
 impl Solid {
     /// A solid of full extents `size`, centred on `centre`.
     pub fn new(shape: Shape, centre: Vec3, size: Vec3, material: Material) -> Self {
-        Self { shape, half: size / 2.0, centre, solid_from_room: Mat3::IDENTITY, materials: [material; 6] }
+        let (half, centre) = (Vec3A::from(size / 2.0), Vec3A::from(centre));
+        Self { shape, half, centre, solid_from_room: Mat3A::IDENTITY, materials: [material; 6] }
     }
 
     /// A box between two corners.
@@ -98,14 +99,14 @@ impl Solid {
 
     /// Turned about its own centre by a rotation.
     pub fn turned(mut self, rotation: Mat3) -> Self {
-        self.solid_from_room *= rotation.transpose();
+        self.solid_from_room *= Mat3A::from(rotation.transpose());
         self
     }
 
     /// Turned about z through `pivot` and then moved by `shift`: places furniture that was built at the origin.
     pub fn placed(mut self, yaw: f32, shift: Vec3) -> Self {
         let rotation = Mat3::from_rotation_z(yaw);
-        self.centre = rotation * self.centre + shift;
+        self.centre = rotation * self.centre + Vec3A::from(shift);
         self.turned(rotation)
     }
 
@@ -116,16 +117,19 @@ impl Solid {
     }
 
     /// Its centre in the room.
-    pub fn centre(&self) -> Vec3 {
+    pub fn centre(&self) -> Vec3A {
         self.centre
     }
 
-    /// Radius of a sphere about the centre that holds it.
-    pub fn radius(&self) -> f32 {
-        match self.shape {
-            Shape::Ellipsoid => self.half.max_element(),
-            _ => self.half.length(),
-        }
+    /// How far its box reaches from the centre along a unit direction.
+    pub fn extent(&self, direction: Vec3A) -> f32 {
+        (self.solid_from_room * direction).abs().dot(self.half)
+    }
+
+    /// Distance of a point from its box; 0 inside.
+    pub fn distance(&self, point: Vec3A) -> f32 {
+        let local = self.solid_from_room * (point - self.centre);
+        (local.abs() - self.half).max(Vec3A::ZERO).length()
     }
 
     /// The material of a face.
@@ -154,7 +158,7 @@ impl Solid {
         }
     }
 
-    fn hit_box(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Face)> {
+    fn hit_box(&self, origin: Vec3A, direction: Vec3A) -> Option<(f32, Face)> {
         let inverse = direction.recip();
         let (a, b) = ((-self.half - origin) * inverse, (self.half - origin) * inverse);
         let (near, far) = (a.min(b), a.max(b));
@@ -166,7 +170,7 @@ impl Solid {
         Some((enter, Face::along(axis, direction[axis] < 0.0)))
     }
 
-    fn leave_box(&self, origin: Vec3, direction: Vec3) -> (f32, Face) {
+    fn leave_box(&self, origin: Vec3A, direction: Vec3A) -> (f32, Face) {
         let far = (self.half * direction.signum() - origin) / direction;
         let leave = far.min_element();
         let axis = if leave == far.x { 0 } else { 2 - usize::from(leave == far.y) };
@@ -174,8 +178,8 @@ impl Solid {
         (leave, Face::along(axis, direction[axis] < 0.0))
     }
 
-    fn hit_cylinder(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Face)> {
-        let flat = |v: Vec3| Vec2::new(v.x, v.y) / self.half.x;
+    fn hit_cylinder(&self, origin: Vec3A, direction: Vec3A) -> Option<(f32, Face)> {
+        let flat = |v: Vec3A| Vec2::new(v.x, v.y) / self.half.x;
         let (o, d) = (flat(origin), flat(direction));
         let (a, b, c) = (d.length_squared(), o.dot(d), o.length_squared() - 1.0);
         let discriminant = b * b - a * c;
@@ -204,7 +208,7 @@ impl Solid {
     }
 
     /// Where a point of the surface lies in its face's picture: metres from the lower left corner.
-    pub fn picture_from_room(&self, face: Face, point: Vec3) -> Vec2 {
+    pub fn picture_from_room(&self, face: Face, point: Vec3A) -> Vec2 {
         let local = self.solid_from_room * (point - self.centre);
         let size = self.picture_size(face);
         match (self.shape, face) {
@@ -221,18 +225,18 @@ impl Solid {
     }
 
     /// The inverse of [`picture_from_room`](Self::picture_from_room): the point, and the surface's normal there.
-    pub fn room_from_picture(&self, face: Face, picture: Vec2) -> (Vec3, Vec3) {
+    pub fn room_from_picture(&self, face: Face, picture: Vec2) -> (Vec3A, Vec3A) {
         let size = self.picture_size(face);
         let (local, normal) = match (self.shape, face) {
             (Shape::Cylinder, Face::East) => {
                 let (sin, cos) = (TAU * (picture.x / size.x - 0.5)).sin_cos();
-                let normal = Vec3::new(cos, sin, 0.0);
-                (normal * self.half.x + Vec3::Z * (picture.y - self.half.z), normal)
+                let normal = Vec3A::new(cos, sin, 0.0);
+                (normal * self.half.x + Vec3A::Z * (picture.y - self.half.z), normal)
             }
             (Shape::Ellipsoid, _) => {
                 let (sin, cos) = (TAU * (picture.x / size.x - 0.5)).sin_cos();
                 let (up, out) = (PI * (picture.y / size.y - 0.5)).sin_cos();
-                let unit = Vec3::new(out * cos, out * sin, up);
+                let unit = Vec3A::new(out * cos, out * sin, up);
                 (unit * self.half, (unit / self.half).normalize())
             }
             _ => {
@@ -247,10 +251,10 @@ impl Solid {
     }
 
     /// The surface's unit normal at one of its points.
-    pub fn normal(&self, face: Face, point: Vec3) -> Vec3 {
+    pub fn normal(&self, face: Face, point: Vec3A) -> Vec3A {
         let local = self.solid_from_room * (point - self.centre);
         let normal = match (self.shape, face) {
-            (Shape::Cylinder, Face::East) => Vec3::new(local.x, local.y, 0.0).normalize(),
+            (Shape::Cylinder, Face::East) => Vec3A::new(local.x, local.y, 0.0).normalize(),
             (Shape::Ellipsoid, _) => (local / (self.half * self.half)).normalize(),
             _ => face.axes().0,
         };
@@ -259,11 +263,11 @@ impl Solid {
 }
 
 /// The angle about z as a share of a full turn, 0–1, from −x anticlockwise.
-fn around(point: Vec3) -> f32 {
+fn around(point: Vec3A) -> f32 {
     point.y.atan2(point.x) / TAU + 0.5
 }
 
-fn hit_unit_sphere(origin: Vec3, direction: Vec3) -> Option<f32> {
+fn hit_unit_sphere(origin: Vec3A, direction: Vec3A) -> Option<f32> {
     let (a, b, c) = (direction.length_squared(), origin.dot(direction), origin.length_squared() - 1.0);
     let discriminant = b * b - a * c;
     let t = (-b - discriminant.max(0.0).sqrt()) / a;
@@ -296,9 +300,9 @@ mod tests {
         for shape in [Shape::Box, Shape::Cylinder, Shape::Ellipsoid] {
             let solid = Solid::new(shape, Vec3::ZERO, Vec3::ONE, Material::default());
             let hit = |origin, direction| solid.hit(&Ray { origin, direction });
-            assert!(hit(Vec3::new(2.0, 0.1, 0.1), Vec3::new(1.0, 0.01, 0.02)).is_none());
-            assert!(hit(Vec3::new(-2.0, 0.9, 0.1), Vec3::new(1.0, 0.01, 0.02)).is_none());
-            assert!(hit(Vec3::new(-2.0, 0.1, 0.1), Vec3::new(1.0, 0.01, 0.02)).is_some());
+            assert!(hit(Vec3A::new(2.0, 0.1, 0.1), Vec3A::new(1.0, 0.01, 0.02)).is_none());
+            assert!(hit(Vec3A::new(-2.0, 0.9, 0.1), Vec3A::new(1.0, 0.01, 0.02)).is_none());
+            assert!(hit(Vec3A::new(-2.0, 0.1, 0.1), Vec3A::new(1.0, 0.01, 0.02)).is_some());
         }
     }
 }

@@ -63,8 +63,8 @@ pub fn cloth(colour: Vec3, at: Vec2, seed: u32) -> Vec3 {
     let over = (thread.x as i32 + thread.y as i32) & 1;
     let yarn = cell(thread.x as i32, thread.y as i32, seed);
     let wear = fractal(at * 4.0, 4, seed);
-    let fleck = smoothstep(0.62, 0.78, fractal(at * 38.0, 2, seed ^ 3));
-    colour * (0.55 + 0.2 * over as f32 + 0.3 * yarn + 0.4 * wear) + Vec3::splat(0.10 * fleck)
+    let fleck = smoothstep(0.6, 0.8, fractal(at * 70.0, 2, seed ^ 3));
+    colour * (0.5 + 0.2 * over as f32 + 0.35 * yarn + 0.45 * wear) + Vec3::splat(0.05 * fleck)
 }
 
 /// Folds every 9 cm or so: what the light does between them is painted on.

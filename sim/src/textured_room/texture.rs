@@ -1,7 +1,6 @@
 //! Pictures that lie on the solids' faces: the light that leaves every spot, worked out once, at several resolutions.
 
-use glam::Vec2;
-use glam::Vec3;
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
 /// The brightest value a texel holds; 1 is white paper.
@@ -12,14 +11,17 @@ const STEPS: f32 = u16::MAX as f32 / BRIGHTEST;
 pub struct Texture {
     /// Finest first.
     levels: Vec<Level>,
-    /// Texels a metre in the finest.
-    density: Vec2,
 }
 
 struct Level {
     width: usize,
     height: usize,
-    texels: Vec<[u16; 3]>,
+    /// Red, green, blue, and a nought that makes four of them load as one.
+    texels: Vec<[u16; 4]>,
+    /// Texels in a metre.
+    density: Vec2,
+    /// Centre of the last texel.
+    last: Vec2,
 }
 
 impl Texture {
@@ -34,29 +36,31 @@ impl Texture {
             .with_min_len(256)
             .map(|index| {
                 let centre = Vec2::new((index % width) as f32 + 0.5, (index / width) as f32 + 0.5);
-                ((colour(centre / density) * STEPS).clamp(Vec3::ZERO, Vec3::splat(65535.0))).to_array().map(|c| c as u16)
+                // A float beyond the range of u16 becomes the nearest of its ends.
+                (colour(centre / density) * STEPS).extend(0.0).to_array().map(|value| value as u16)
             })
             .collect();
-        let mut levels = vec![Level { width, height, texels }];
+        let mut levels = vec![Level::new(width, height, texels, density)];
         while let Some(last) = levels.last().filter(|last| last.width > 1 || last.height > 1) {
             levels.push(last.halved());
         }
-        Self { levels, density }
+        Self { levels }
     }
 
     /// The mean colour of a spot `footprint` metres wide around `at` (metres from the lower left corner).
-    pub fn sample(&self, at: Vec2, footprint: f32) -> Vec3 {
-        let texels = footprint * self.density.min_element();
+    pub fn sample(&self, at: Vec2, footprint: f32) -> Vec3A {
+        let texels = footprint * self.levels[0].density.min_element();
         // The exponent of a float is the floor of its logarithm.
         let level = (texels.to_bits() >> 23).saturating_sub(127) as usize;
-        let level = &self.levels[level.min(self.levels.len() - 1)];
-        let scale = self.density * Vec2::new(level.width as f32, level.height as f32)
-            / Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
-        level.between(at * scale - 0.5)
+        self.levels[level.min(self.levels.len() - 1)].between(at)
     }
 }
 
 impl Level {
+    fn new(width: usize, height: usize, texels: Vec<[u16; 4]>, density: Vec2) -> Self {
+        Self { width, height, texels, density, last: Vec2::new((width - 1) as f32, (height - 1) as f32) }
+    }
+
     fn halved(&self) -> Self {
         let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
         let texels = (0..width * height).map(|index| {
@@ -65,21 +69,22 @@ impl Level {
             let four = [(x, y), (right, y), (x, down), (right, down)].map(|(x, y)| self.texels[y * self.width + x]);
             std::array::from_fn(|channel| (four.iter().map(|texel| u32::from(texel[channel])).sum::<u32>() / 4) as u16)
         });
-        Self { width, height, texels: texels.collect() }
+        let cells = |width: usize, height: usize| Vec2::new(width as f32, height as f32);
+        let density = self.density * cells(width, height) / cells(self.width, self.height);
+        Self::new(width, height, texels.collect(), density)
     }
 
     /// Bilinear; beyond the border, the border.
-    fn between(&self, at: Vec2) -> Vec3 {
-        let at = at.clamp(Vec2::ZERO, Vec2::new((self.width - 1) as f32, (self.height - 1) as f32));
-        let (x, y) = (at.x as usize, at.y as usize);
-        let (right, up) = ((x + 1).min(self.width - 1), (y + 1).min(self.height - 1));
-        let t = at.fract();
-        let texel = |x: usize, y: usize| {
-            let [r, g, b] = self.texels[y * self.width + x];
-            Vec3::new(f32::from(r), f32::from(g), f32::from(b))
-        };
-        let low = texel(x, y).lerp(texel(right, y), t.x);
-        low.lerp(texel(x, up).lerp(texel(right, up), t.x), t.y) / STEPS
+    fn between(&self, at: Vec2) -> Vec3A {
+        let at = (at * self.density - 0.5).clamp(Vec2::ZERO, self.last);
+        let (x, y) = (at.x as u32, at.y as u32);
+        let t = at - Vec2::new(x as f32, y as f32);
+        let corner = y as usize * self.width + x as usize;
+        let right = usize::from(x as usize + 1 < self.width);
+        let up = if y as usize + 1 < self.height { self.width } else { 0 };
+        let texel = |index: usize| Vec3A::from_vec4(Vec4::from_array(self.texels[index].map(f32::from)));
+        let low = texel(corner).lerp(texel(corner + right), t.x);
+        low.lerp(texel(corner + up).lerp(texel(corner + up + right), t.x), t.y) / STEPS
     }
 }
 
@@ -91,8 +96,8 @@ mod tests {
     fn a_ramp_is_read_back_and_its_mean_from_afar() {
         let texture = Texture::paint(Vec2::new(2.0, 1.0), 0.01, |at| Vec3::new(at.x, at.y, 0.5));
         let near = texture.sample(Vec2::new(1.234, 0.567), 0.005);
-        assert!((near - Vec3::new(1.234, 0.567, 0.5)).length() < 1e-3, "{near}");
+        assert!((near - Vec3A::new(1.234, 0.567, 0.5)).length() < 1e-3, "{near}");
         let far = texture.sample(Vec2::new(1.2, 0.4), 10.0);
-        assert!((far - Vec3::new(1.0, 0.5, 0.5)).length() < 0.02, "{far}");
+        assert!((far - Vec3A::new(1.0, 0.5, 0.5)).length() < 0.02, "{far}");
     }
 }

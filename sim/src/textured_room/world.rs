@@ -1,6 +1,6 @@
 //! The room as the cameras find it: its solids, and on each face a picture of the light that leaves it.
 
-use glam::{Mat3, Quat, Vec2, Vec3};
+use glam::{Mat3A, Quat, Vec2, Vec3, Vec3A};
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 
@@ -36,7 +36,7 @@ impl World {
     }
 
     /// The colour that comes back along a ray, where one pixel (or sample) is `pixel` radians wide.
-    pub fn colour(&self, ray: &Ray, hit: &Hit, pixel: f32) -> Vec3 {
+    pub fn colour(&self, ray: &Ray, hit: &Hit, pixel: f32) -> Vec3A {
         let solid = &self.scene.solids()[hit.solid];
         let point = ray.at(hit.t);
         let length = ray.direction.length();
@@ -51,7 +51,7 @@ fn picture(light: &Light, solid: &Solid, face: Face) -> Texture {
     let size = solid.picture_size(face);
     let (centre, normal) = solid.room_from_picture(face, size / 2.0);
     let in_front = centre + normal * 0.01;
-    let is_seen = solid.faces().contains(&face) && in_front.cmpge(Vec3::ZERO).all() && in_front.cmple(ROOM).all();
+    let is_seen = solid.faces().contains(&face) && in_front.cmpge(Vec3A::ZERO).all() && in_front.cmple(ROOM.into()).all();
     if !is_seen {
         return Texture::paint(Vec2::ONE, 1.0, |_| Vec3::ZERO);
     }
@@ -97,9 +97,9 @@ impl LightGrid {
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     /// Turns directions of the camera into the room's.
-    pub rotation: Mat3,
+    pub rotation: Mat3A,
     /// The camera's place in the room, metres.
-    pub position: Vec3,
+    pub position: Vec3A,
 }
 
 impl From<&Isometry3<f64>> for Pose {
@@ -107,8 +107,8 @@ impl From<&Isometry3<f64>> for Pose {
         let world_from_camera = world_from_camera.cast::<f32>();
         let [x, y, z, w] = world_from_camera.rotation.coords.into();
         Self {
-            rotation: Mat3::from_quat(Quat::from_xyzw(x, y, z, w)),
-            position: Vec3::from_array(world_from_camera.translation.vector.into()),
+            rotation: Mat3A::from_quat(Quat::from_xyzw(x, y, z, w)),
+            position: Vec3A::from_array(world_from_camera.translation.vector.into()),
         }
     }
 }
