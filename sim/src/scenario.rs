@@ -60,8 +60,8 @@ impl Scenario {
     /// # Errors
     /// The first thing wrong, with file, line, column and what to write instead.
     pub fn load(file: &Path) -> Result<Self, ScenarioError> {
-        let text = fs::read_to_string(file)
-            .map_err(|source| ScenarioError::Unreadable { file: file.to_owned(), source })?;
+        let text =
+            fs::read_to_string(file).map_err(|source| ScenarioError::Unreadable { file: file.to_owned(), source })?;
         Self::parse(&text, file)
     }
 

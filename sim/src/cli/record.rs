@@ -26,8 +26,10 @@ pub struct RecordArgs {
 /// An invalid scenario, or a folder that can't be written.
 pub fn run(args: &RecordArgs) -> Result<(), RecordCommandError> {
     let scenario = Scenario::load(&args.scenario)?;
-    let bar = ProgressBar::new(scenario.frames() as u64)
-        .with_style(ProgressStyle::with_template("recording {wide_bar} {pos}/{len} frames, {eta} left").unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = ProgressBar::new(scenario.frames() as u64).with_style(
+        ProgressStyle::with_template("recording {wide_bar} {pos}/{len} frames, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
     let progress = |done: usize, _| bar.set_position(done as u64);
     match scenario.world {
         World::TexturedRoom => textured_room::record(&scenario, &args.out, progress)?,

@@ -32,7 +32,9 @@ fn mountains(at: Vec2, uv: Vec2) -> Vec3 {
     for ridge in 0..6 {
         let nearness = ridge as f32 / 5.0;
         let line = 0.58 - 0.09 * ridge as f32
-            + (0.20 - 0.1 * nearness) * (fractal(Vec2::new(at.x * (2.5 + nearness * 3.0), ridge as f32 * 7.0), 6, 91) - 0.5) * 2.0;
+            + (0.20 - 0.1 * nearness)
+                * (fractal(Vec2::new(at.x * (2.5 + nearness * 3.0), ridge as f32 * 7.0), 6, 91) - 0.5)
+                * 2.0;
         if at.y < line {
             let rock = fractal(at * Vec2::new(24.0, 50.0), 4, 92 + ridge);
             let snow = smoothstep(0.05, 0.0, line - at.y) * (1.0 - nearness) * smoothstep(0.4, 0.6, rock);
@@ -104,7 +106,9 @@ fn announcement(at: Vec2, size: Vec2, uv: Vec2) -> Vec3 {
         let inside = |x: f32, y: f32, w: f32, h: f32| (p.x - x).abs() < w && (p.y - y).abs() < h;
         let eye = ((p.x.abs() - 0.035).powi(2) + (p.y - 0.07).powi(2)).sqrt() < 0.012;
         let wheel = ((p.x.abs() - 0.06).powi(2) + (p.y + 0.11).powi(2)).sqrt() < 0.035;
-        if (inside(0.0, -0.05, 0.1, 0.05) || inside(0.0, 0.02, 0.012, 0.03) || inside(0.0, 0.07, 0.075, 0.022) || wheel) && !eye {
+        if (inside(0.0, -0.05, 0.1, 0.05) || inside(0.0, 0.02, 0.012, 0.03) || inside(0.0, 0.07, 0.075, 0.022) || wheel)
+            && !eye
+        {
             colour = linear(0x1e_24_30);
         }
     }

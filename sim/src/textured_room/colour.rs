@@ -7,8 +7,8 @@ use sunblind_estimator::camera::CameraModel;
 use sunblind_estimator::image::{Image, RgbImage};
 
 use super::lens::Lens;
+use super::lit_scene::{LitScene, Pose};
 use super::solid::Ray;
-use super::world::{Pose, World};
 
 /// A sample of a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -26,12 +26,14 @@ const fn sample(x: f32, y: f32, when: f64) -> Sample {
 /// A rotated grid, which smooths edges of every direction, a little wider than the pixel, as a lens blurs. The first
 /// two alone have the mean and about the spread of a whole exposure.
 pub const SAMPLES: [Sample; 4] =
-    [sample(-0.25, -0.5, -0.3), sample(0.25, 0.5, 0.3), sample(0.5, -0.25, -0.1), sample(-0.5, 0.25, 0.1)];
+    [sample(-0.3, -0.6, -0.3), sample(0.3, 0.6, 0.3), sample(0.6, -0.3, -0.1), sample(-0.6, 0.3, 0.1)];
 /// Width of a sample in pixels: what lies between two samples is not to be missed.
-const SAMPLE_WIDTH: f64 = 0.8;
-/// What a full pixel holds at the gain an indoor picture needs, electrons: a guess at gain 8 of a sensor with a full
+const SAMPLE_WIDTH: f64 = 1.1;
+/// Two samples further apart than this show as a double image, pixels.
+const DOUBLE: f32 = 1.5;
+/// What a full pixel holds at the gain an indoor picture needs, electrons: a guess at gain 16 of a sensor with a full
 /// well of 25,000.
-const FULL: f32 = 3000.0;
+const FULL: f32 = 1500.0;
 /// Read noise as a share of full: 7 electrons.
 const READ_NOISE: f32 = 7.0 / FULL;
 /// Loss in the corners: half of what cos⁴ of a simple lens would be.
@@ -64,9 +66,10 @@ impl ColourCamera {
     }
 
     /// Takes a picture. `poses` are the camera's during the exposure, one a sample; no `noise`: an ideal sensor.
-    pub fn shoot(&self, world: &World, poses: &[Pose; 4], noise: Option<ChaCha8Rng>) -> RgbImage {
+    pub fn shoot(&self, scene: &LitScene, poses: &[Pose; 4], noise: Option<ChaCha8Rng>) -> RgbImage {
+        let is_steady = self.smear(&poses[0], &poses[1]) < DOUBLE;
         let mut mosaic = vec![0.0; self.width * self.height];
-        self.lens.by_tiles(world.scene(), poses, 0.0, |pixels, candidates| {
+        self.lens.by_tiles(scene.geometry(), poses, 0.0, |pixels, candidates| {
             let mut guess = 0;
             for &pixel in pixels {
                 let centre = self.lens.ray(pixel);
@@ -79,11 +82,11 @@ impl ColourCamera {
                     };
                     let hit = candidates.first_hit_near(&ray, guess);
                     guess = hit.solid;
-                    (world.colour(&ray, &hit, self.sample_angle), (hit.solid, hit.face))
+                    (scene.colour(&ray, &hit, self.sample_angle), (hit.solid, hit.face))
                 };
                 let (first, second) = (look(0), look(1));
-                // Where both see the same face there is no edge to smooth.
-                let light = match first.1 == second.1 {
+                // Where both see the same face there is no edge to smooth, and close together they leave no double image.
+                let light = match is_steady && first.1 == second.1 {
                     true => (first.0 + second.0) / 2.0,
                     false => (first.0 + second.0 + look(2).0 + look(3).0) / 4.0,
                 };
@@ -100,6 +103,12 @@ impl ColourCamera {
             }
         }
         self.develop(&mosaic)
+    }
+
+    /// By how many pixels the picture's corner moves from one pose to the other, far away.
+    fn smear(&self, from: &Pose, to: &Pose) -> f32 {
+        let corner = self.lens.ray(0);
+        (from.rotation * corner).distance(to.rotation * corner) * self.pixels_per_unit.x
     }
 
     /// Fills in the two colours each photosite lacks from its neighbours, and applies the tone curve.

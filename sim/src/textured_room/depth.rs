@@ -11,10 +11,11 @@ use sunblind_estimator::camera::DepthCamera;
 use sunblind_estimator::image::{DepthImage, Image};
 
 use super::lens::Lens;
+use super::lit_scene::Pose;
 use super::noise::smoothstep;
 use super::rig::BASELINE;
+use super::scene::Scene;
 use super::solid::Ray;
-use super::world::{Pose, World};
 
 /// Steps of disparity in a pixel (ROS `kinect_calibration/technical`; confirmed on TUM's frames).
 pub const STEPS_PER_PIXEL: f32 = 8.0;
@@ -48,8 +49,8 @@ impl DepthSensor {
     }
 
     /// Takes a depth image; no `noise`: disparity is exact but for its rounding, and no dot gets lost.
-    pub fn shoot(&self, world: &World, pose: &Pose, noise: Option<ChaCha8Rng>) -> DepthImage {
-        let mut disparity = self.disparity(world, pose);
+    pub fn shoot(&self, scene: &Scene, pose: &Pose, noise: Option<ChaCha8Rng>) -> DepthImage {
+        let mut disparity = self.disparity(scene, pose);
         if let Some(mut noise) = noise {
             disparity = self.disturbed(&disparity, &mut noise);
         }
@@ -70,18 +71,18 @@ impl DepthSensor {
     }
 
     /// What an ideal device would see.
-    fn disparity(&self, world: &World, pose: &Pose) -> Vec<Dot> {
+    fn disparity(&self, scene: &Scene, pose: &Pose) -> Vec<Dot> {
         let (width, height) = self.camera.model.size();
         let mut dots = vec![Dot::NONE; width * height];
         let projector = pose.position + pose.rotation * (Vec3A::X * BASELINE as f32);
-        let solids = world.scene().solids();
-        self.lens.by_tiles(world.scene(), &[*pose], BASELINE as f32, |pixels, candidates| {
-            let mut solid = 0;
+        let solids = scene.solids();
+        self.lens.by_tiles(scene, &[*pose], BASELINE as f32, |pixels, candidates| {
+            let mut guess = 0;
             for &pixel in pixels {
                 let ray = Ray { origin: pose.position, direction: pose.rotation * self.lens.ray(pixel) };
-                let hit = candidates.first_hit_near(&ray, solid);
-                solid = hit.solid;
-                let solid = &solids[solid];
+                let hit = candidates.first_hit_near(&ray, guess);
+                guess = hit.solid;
+                let solid = &solids[hit.solid];
                 let point = ray.at(hit.t);
                 let normal = solid.normal(hit.face, point);
                 let to_projector = projector - point;

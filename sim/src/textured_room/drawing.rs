@@ -40,7 +40,8 @@ pub fn whiteboard(at: Vec2, size: Vec2) -> Vec3 {
         ink(line(plot.y - truth), GREEN);
         ink(line(plot.y - noisy), RED);
     }
-    let notes = ["x' = f(x, u) + w", "z  = h(x) + v", "P = FPF' + Q", "slip on wet grass?", "ask Ana: LAB KEY", "TODO: clouds"];
+    let notes =
+        ["x' = f(x, u) + w", "z  = h(x) + v", "P = FPF' + Q", "slip on wet grass?", "ask Ana: LAB KEY", "TODO: clouds"];
     for (row, note) in notes.iter().enumerate() {
         let corner = Vec2::new(0.95, size.y - 0.42 - 0.085 * row as f32);
         ink(set(note, corner, 0.055, shaken), [BLACK, BLACK, BLUE, RED, GREEN, BLACK][row]);

@@ -115,8 +115,8 @@ fn books(row: i32, base: f32) -> Vec<Solid> {
         let lean = if left < gap && left + 3.0 * thick > gap { 0.16 } else { 0.0 };
         let book = Solid::new(Shape::Box, centre, Vec3::new(thick, deep, high), Material::Spine(seed))
             .with(Face::Up, Material::Pages)
-            .with(Face::East, Material::Cover(seed))
-            .with(Face::West, Material::Cover(seed));
+            .with(Face::East, Material::Binding(seed))
+            .with(Face::West, Material::Binding(seed));
         books.push(book.turned(Mat3::from_rotation_y(lean)));
         left += thick + 0.0015 + 0.5 * thick * lean;
         if left > gap && left - thick <= gap {

@@ -74,12 +74,18 @@ fn fittings() -> Vec<Solid> {
     all.extend(CEILING_LAMPS.map(|centre| {
         Solid::new(Shape::Box, centre, CEILING_LAMP, WHITE).with(Face::Down, Material::Lamp(0xff_f4_e4))
     }));
-    // On the bare wall: two double sockets and a thermostat, each a plate with darker insets.
+    // By the bare wall somebody has left two boxes.
+    for (x, y, size, seed) in [(0.20, 2.42, 0.30, 4), (0.19, 2.05, 0.24, 5)] {
+        let centre = Vec3::new(x, y, size / 2.0);
+        let carton = Solid::new(Shape::Box, centre, Vec3::splat(size), Material::Cardboard(seed));
+        all.push(carton.turned(Mat3::from_rotation_z(0.2)));
+    }
+    // On it: two double sockets and a thermostat, each a plate with darker insets.
     for (along, up, inset) in [(2.86, 0.31, 0.028), (2.95, 0.31, 0.028), (1.62, 0.31, 0.028), (1.72, 1.28, 0.02)] {
-        let centre = Vec3::new(0.006, along, up);
-        all.push(Solid::new(Shape::Box, centre, Vec3::new(0.012, 0.082, 0.082), WHITE));
-        let inset = Vec3::new(0.004, inset, inset);
-        all.push(Solid::new(Shape::Box, centre + Vec3::X * 0.007, inset, Material::Plain(0x5a_5c_60)));
+        let centre = Vec3::new(0.0, along, up);
+        all.push(Solid::new(Shape::Box, centre, Vec3::new(0.006, 0.082, 0.082), WHITE));
+        let inset = Vec3::new(0.007, inset, inset);
+        all.push(Solid::new(Shape::Box, centre, inset, Material::Plain(0x5a_5c_60)));
     }
     all
 }
@@ -123,8 +129,13 @@ fn pictures() -> Vec<Solid> {
         .with(Face::South, Material::Whiteboard);
     let tray = Solid::between(Vec3::new(4.7, y - 0.08, 1.05), Vec3::new(5.4, y, 1.07), STEEL);
     let pen = |at: f32, colour| {
-        Solid::new(Shape::Cylinder, Vec3::new(at, y - 0.05, 1.079), Vec3::new(0.018, 0.018, 0.13), Material::Plain(colour))
-            .turned(Mat3::from_rotation_y(std::f32::consts::FRAC_PI_2))
+        Solid::new(
+            Shape::Cylinder,
+            Vec3::new(at, y - 0.05, 1.079),
+            Vec3::new(0.018, 0.018, 0.13),
+            Material::Plain(colour),
+        )
+        .turned(Mat3::from_rotation_y(std::f32::consts::FRAC_PI_2))
     };
     // A sheet of a millimetre on the wall whose inner side is `face`.
     let poster = |face: Face, which: u32, along: f32, up: f32, width: f32, height: f32| {

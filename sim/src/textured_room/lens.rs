@@ -4,8 +4,8 @@ use glam::Vec3A;
 use nalgebra::Point2;
 use sunblind_estimator::camera::CameraModel;
 
+use super::lit_scene::Pose;
 use super::scene::{Bundle, Candidates, Scene};
-use super::world::Pose;
 
 /// Edge of a tile, pixels.
 const TILE: usize = 16;

@@ -41,12 +41,24 @@ impl<'a> Light<'a> {
         let [(left, low), (right, high)] = WINDOW;
         let window = Vec3::new((left + right) / 2.0, ROOM.y - 0.24, (low + high) / 2.0);
         let mut lamps = vec![
-            lamp(window, Vec3::X * (right - left), Vec3::Z * (high - low), Some(Vec3A::NEG_Y), Vec3::new(0.98, 1.12, 1.28)),
+            lamp(
+                window,
+                Vec3::X * (right - left),
+                Vec3::Z * (high - low),
+                Some(Vec3A::NEG_Y),
+                Vec3::new(0.98, 1.12, 1.28),
+            ),
             lamp(Vec3::new(3.98, 4.7, 1.74), Vec3::X * 0.1, Vec3::Y * 0.1, None, Vec3::new(0.13, 0.095, 0.055)),
         ];
         lamps.extend(CEILING_LAMPS.map(|centre| {
             let below = centre - Vec3::Z * (CEILING_LAMP.z / 2.0 + LIFT);
-            lamp(below, Vec3::X * CEILING_LAMP.x, Vec3::Y * CEILING_LAMP.y, Some(Vec3A::NEG_Z), Vec3::new(0.62, 0.58, 0.50))
+            lamp(
+                below,
+                Vec3::X * CEILING_LAMP.x,
+                Vec3::Y * CEILING_LAMP.y,
+                Some(Vec3A::NEG_Z),
+                Vec3::new(0.62, 0.58, 0.50),
+            )
         }));
         Self { scene, lamps, directions: hemisphere() }
     }

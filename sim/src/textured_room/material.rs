@@ -24,6 +24,8 @@ pub enum Material {
     Rug,
     /// A poster; the number says which.
     Poster(u32),
+    /// The plain side of a book whose back is `Spine` of the same number.
+    Binding(u32),
     /// The back of a book; the number says which.
     Spine(u32),
     /// The front of a book or magazine; the number says which.
@@ -91,6 +93,7 @@ impl Material {
             Self::Curtain(colour) => surface::curtain(linear(colour), at),
             Self::Rug => surface::rug(at, size),
             Self::Poster(which) => art::poster(which, at, size),
+            Self::Binding(seed) => print::binding(seed, at),
             Self::Spine(seed) => print::spine(seed, at, size),
             Self::Cover(seed) => print::cover(seed, at, size),
             Self::Pages => linear(0xe6_de_c8) * (0.75 + 0.25 * value(Vec2::new(at.x * 60.0, at.y * 900.0), 5)),
@@ -112,8 +115,8 @@ impl Material {
         match self {
             Self::Poster(_) | Self::Whiteboard | Self::Screen | Self::Keyboard => 0.002,
             Self::Spine(_) | Self::Cover(_) | Self::Sheet(_) => 0.0012,
-            Self::Boards | Self::Rug | Self::Wood(_) | Self::Window | Self::Cardboard(_) => 0.003,
-            Self::Plaster(_) | Self::Plain(_) | Self::Lamp(_) => 0.006,
+            Self::Wood(_) | Self::Window | Self::Cardboard(_) => 0.003,
+            Self::Plaster(_) | Self::Plain(_) | Self::Binding(_) | Self::Lamp(_) => 0.006,
             _ => 0.004,
         }
     }

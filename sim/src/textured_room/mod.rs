@@ -2,12 +2,13 @@
 //! the demo, and for tests on machines that have no real recording.
 //!
 //! It stands in until the renderer can synthesise the device's infrared image. What it lacks: depth is geometry plus
-//! published errors (see [`depth`]), not matched dots; both images are taken at one instant, without rolling shutter
+//! published errors, not matched dots; both images are taken at one instant, without rolling shutter
 //! or automatic exposure; surfaces are matt; sunlight does not disturb it.
 //!
-//! The room is the same every time; the seed changes the sensors' noise only. From bottom to top: [`noise`],
-//! [`material`] with its patterns, [`solid`] and [`scene`] (what a ray meets), [`light`], [`texture`] and [`world`]
-//! (light baked onto surfaces, since nothing moves but the camera), [`lens`], [`colour`] and [`depth`], [`path`].
+//! The room is the same every time; the seed changes the sensors' noise only. From bottom to top: `noise`, `material`
+//! with its patterns (`surface`, `print`, `art`, `drawing`), `solid` and `scene` (what a ray meets), `layout` with its
+//! `furniture` and `things`, `light`, `texture` and `lit_scene` (light baked onto surfaces, since nothing moves but the
+//! camera), `lens`, `colour` and `depth` (the cameras), `path`.
 
 mod art;
 mod colour;
@@ -17,6 +18,7 @@ mod furniture;
 mod layout;
 mod lens;
 mod light;
+mod lit_scene;
 mod material;
 mod noise;
 mod path;
@@ -25,9 +27,10 @@ mod rig;
 mod scene;
 mod solid;
 mod surface;
+#[cfg(test)]
+mod tests;
 mod texture;
 mod things;
-mod world;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -44,17 +47,18 @@ use crate::record::writer::{RecordingWriter, WriteError};
 use crate::scenario::Scenario;
 use colour::{ColourCamera, SAMPLES};
 use depth::DepthSensor;
-use world::{Pose, World};
+use layout::furnished_room;
+use lit_scene::{LitScene, Pose};
 
 pub use path::world_from_camera;
 pub use rig::{BASELINE, rig};
 
-/// How long the colour camera's shutter is open, seconds; a guess for a bright room.
-const EXPOSURE: f64 = 0.012;
+/// How long the colour camera's shutter is open, seconds; a guess for a room in daylight.
+const EXPOSURE: f64 = 0.010;
 
 /// The room, lit, and the device in it.
 pub struct TexturedRoom {
-    world: World,
+    scene: LitScene,
     rig: Rig,
     colour: ColourCamera,
     depth: DepthSensor,
@@ -72,7 +76,7 @@ pub struct Frame {
 }
 
 impl TexturedRoom {
-    /// Builds and lights the room: about a second.
+    /// Builds and lights the room: a few seconds of computing, shared by all threads.
     pub fn new() -> Self {
         let rig = rig();
         let units_per_metre = match rig.depth.encoding {
@@ -80,7 +84,7 @@ impl TexturedRoom {
             DepthEncoding::KinectDisparity { .. } => unreachable!("the room's device delivers metric depth"),
         };
         let (colour, depth) = (ColourCamera::new(&rig.colour), DepthSensor::new(rig.depth, units_per_metre));
-        Self { world: World::new(), rig, colour, depth }
+        Self { scene: LitScene::new(furnished_room()), rig, colour, depth }
     }
 
     /// The cameras.
@@ -99,9 +103,9 @@ impl TexturedRoom {
             Pose::from(&(world_from_camera(when) * depth_from_colour))
         });
         Frame {
-            rgb: self.colour.shoot(&self.world, &during_exposure, noise("colour noise", scenario.kinect.colour_noise)),
+            rgb: self.colour.shoot(&self.scene, &during_exposure, noise("colour noise", scenario.kinect.colour_noise)),
             depth: self.depth.shoot(
-                &self.world,
+                self.scene.geometry(),
                 &Pose::from(&world_from_depth),
                 noise("depth noise", scenario.kinect.depth_noise),
             ),

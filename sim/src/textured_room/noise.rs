@@ -25,11 +25,7 @@ pub fn value(at: Vec2, seed: u32) -> f32 {
     let t = at - Vec2::new(x as f32, y as f32);
     let t = t * t * (3.0 - 2.0 * t);
     let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
-    mix(
-        mix(cell(x, y, seed), cell(x + 1, y, seed), t.x),
-        mix(cell(x, y + 1, seed), cell(x + 1, y + 1, seed), t.x),
-        t.y,
-    )
+    mix(mix(cell(x, y, seed), cell(x + 1, y, seed), t.x), mix(cell(x, y + 1, seed), cell(x + 1, y + 1, seed), t.x), t.y)
 }
 
 /// Noise in [0, 1) at several scales: each octave has half the length and half the height of the one before.

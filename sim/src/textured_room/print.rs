@@ -73,9 +73,14 @@ fn pick<T: Copy>(from: &[T], seed: u32) -> T {
     from[hash(seed) as usize % from.len()]
 }
 
+/// The cloth a book is bound in.
+pub fn binding(seed: u32, at: Vec2) -> Vec3 {
+    linear(pick(&BINDINGS, seed)) * (0.85 + 0.3 * fractal(at * 90.0, 3, seed))
+}
+
 /// The back of a book, lettered from top to bottom.
 pub fn spine(seed: u32, at: Vec2, size: Vec2) -> Vec3 {
-    let cloth = linear(pick(&BINDINGS, seed)) * (0.85 + 0.3 * fractal(at * 90.0, 3, seed));
+    let cloth = binding(seed, at);
     let dark = cloth.element_sum() > 0.8;
     let foil = linear(if dark { 0x22_20_20 } else { pick(&[0xe8_d8_a0, 0xf4_f2_ea, 0xd0_a0_40], seed ^ 9) });
     let top = size.y - at.y;
@@ -149,7 +154,8 @@ mod tests {
     #[test]
     fn letters_leave_ink_where_they_stand() {
         let share = |text| {
-            let inked = (0..400).filter(|i| ink(text, Vec2::new((i % 20) as f32 / 20.0 * LETTER, (i / 20) as f32 / 20.0)) > 0.5);
+            let inked = (0..400)
+                .filter(|i| ink(text, Vec2::new((i % 20) as f32 / 20.0 * LETTER, (i / 20) as f32 / 20.0)) > 0.5);
             inked.count() as f32 / 400.0
         };
         assert!(share("M") > 0.15 && share("M") < 0.6);

@@ -74,9 +74,8 @@ impl Scene {
 
     /// The things for which `distance` has an answer.
     fn gather(&self, distance: impl Fn(&Solid) -> Option<f32>) -> Candidates<'_> {
-        let mut nearest_first: Vec<_> = (1..self.solids.len())
-            .filter_map(|index| Some((distance(&self.solids[index])?, index)))
-            .collect();
+        let mut nearest_first: Vec<_> =
+            (1..self.solids.len()).filter_map(|index| Some((distance(&self.solids[index])?, index))).collect();
         nearest_first.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         Candidates { scene: self, nearest_first }
     }
@@ -112,8 +111,8 @@ impl Candidates<'_> {
 
     /// Whether a solid other than `except` lies between a point and `t = 1` of the ray that starts there.
     pub fn is_blocked(&self, ray: &Ray, except: usize) -> bool {
-        self.nearest_first.iter().any(|&(_, solid)| {
-            solid != except && self.scene.solids[solid].hit(ray).is_some_and(|(t, _)| t < 1.0)
-        })
+        let length = ray.direction.length();
+        let mut on_the_way = self.nearest_first.iter().take_while(|&&(distance, _)| distance < length);
+        on_the_way.any(|&(_, solid)| solid != except && self.scene.solids[solid].hit(ray).is_some_and(|(t, _)| t < 1.0))
     }
 }

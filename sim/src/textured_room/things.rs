@@ -40,11 +40,17 @@ pub fn tableware() -> Vec<Solid> {
         );
         stack += thick;
     }
-    let magazine = Solid::new(Shape::Box, Vec3::new(-0.58, 0.24, 0.003), Vec3::new(0.21, 0.28, 0.006), Material::Cover(41));
+    let magazine =
+        Solid::new(Shape::Box, Vec3::new(-0.58, 0.24, 0.003), Vec3::new(0.21, 0.28, 0.006), Material::Cover(41));
     all.push(magazine.turned(Mat3::from_rotation_z(-0.4)));
     all.extend(mug(Vec3::new(0.42, 0.02, 0.0), 0xc0_4a_36));
     all.extend(mug(Vec3::new(-0.18, 0.28, 0.0), 0x2c_5a_78));
-    all.push(Solid::new(Shape::Cylinder, Vec3::new(-0.22, 0.02, 0.03), Vec3::new(0.24, 0.24, 0.06), Material::Wood(0x8a_60_3c)));
+    all.push(Solid::new(
+        Shape::Cylinder,
+        Vec3::new(-0.22, 0.02, 0.03),
+        Vec3::new(0.24, 0.24, 0.06),
+        Material::Wood(0x8a_60_3c),
+    ));
     for (x, y, z) in [(-0.26, 0.0, 0.07), (-0.18, 0.0, 0.072), (-0.22, 0.07, 0.07), (-0.22, 0.02, 0.12)] {
         let orange = Material::Plain(0xe0_84_20);
         all.push(Solid::new(Shape::Ellipsoid, Vec3::new(x, y, z), Vec3::new(0.078, 0.078, 0.072), orange));
@@ -98,6 +104,11 @@ pub fn floor_lamp() -> Vec<Solid> {
     vec![
         Solid::new(Shape::Cylinder, Vec3::new(0.0, 0.0, 0.012), Vec3::new(0.28, 0.28, 0.024), black),
         Solid::new(Shape::Cylinder, Vec3::new(0.0, 0.0, 0.75), Vec3::new(0.022, 0.022, 1.5), black),
-        Solid::new(Shape::Cylinder, Vec3::new(0.0, 0.0, 1.55), Vec3::new(0.34, 0.34, 0.26), Material::Cloth(0xf0_dc_b0)),
+        Solid::new(
+            Shape::Cylinder,
+            Vec3::new(0.0, 0.0, 1.55),
+            Vec3::new(0.34, 0.34, 0.26),
+            Material::Cloth(0xf0_dc_b0),
+        ),
     ]
 }

@@ -4,7 +4,7 @@ use glam::{Mat3A, Quat, Vec2, Vec3, Vec3A};
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 
-use super::layout::{ROOM, furnished_room};
+use super::layout::ROOM;
 use super::light::Light;
 use super::scene::{Hit, Scene};
 use super::solid::{Face, Ray, Solid};
@@ -14,24 +14,23 @@ use super::texture::Texture;
 const LIGHT_GRID: f32 = 0.06;
 
 /// Solids and their pictures.
-pub struct World {
+pub struct LitScene {
     scene: Scene,
     /// Six a solid.
     pictures: Vec<Texture>,
 }
 
-impl World {
-    /// Builds and lights the room: about a second.
-    pub fn new() -> Self {
-        let scene = furnished_room();
+impl LitScene {
+    /// Lights a scene: a few seconds.
+    pub fn new(scene: Scene) -> Self {
         let light = Light::new(&scene);
         let faces: Vec<_> = scene.solids().iter().flat_map(|solid| Face::ALL.map(|face| (solid, face))).collect();
         let pictures = faces.into_par_iter().map(|(solid, face)| picture(&light, solid, face)).collect();
         Self { scene, pictures }
     }
 
-    /// The solids.
-    pub fn scene(&self) -> &Scene {
+    /// The solids, without their looks.
+    pub fn geometry(&self) -> &Scene {
         &self.scene
     }
 
@@ -51,7 +50,8 @@ fn picture(light: &Light, solid: &Solid, face: Face) -> Texture {
     let size = solid.picture_size(face);
     let (centre, normal) = solid.room_from_picture(face, size / 2.0);
     let in_front = centre + normal * 0.01;
-    let is_seen = solid.faces().contains(&face) && in_front.cmpge(Vec3A::ZERO).all() && in_front.cmple(ROOM.into()).all();
+    let is_seen =
+        solid.faces().contains(&face) && in_front.cmpge(Vec3A::ZERO).all() && in_front.cmple(ROOM.into()).all();
     if !is_seen {
         return Texture::paint(Vec2::ONE, 1.0, |_| Vec3::ZERO);
     }
