@@ -7,13 +7,13 @@ use glam::Vec3A;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use sunblind_estimator::camera::DepthCamera;
+use sunblind_estimator::camera::CameraModel;
 use sunblind_estimator::image::{DepthImage, Image};
 
 use super::lens::Lens;
 use super::lit_scene::Pose;
 use super::noise::smoothstep;
-use super::rig::BASELINE;
+use super::rig::{BASELINE, UNITS_PER_METRE};
 use super::scene::Scene;
 use super::solid::Ray;
 
@@ -38,14 +38,13 @@ const RAGGED: i32 = 2;
 /// The depth camera of the simulated device.
 pub struct DepthSensor {
     lens: Lens,
-    camera: DepthCamera,
-    units_per_metre: f32,
+    model: CameraModel,
 }
 
 impl DepthSensor {
-    /// A sensor whose images hold `units_per_metre`.
-    pub fn new(camera: DepthCamera, units_per_metre: f64) -> Self {
-        Self { lens: Lens::new(&camera.model), camera, units_per_metre: units_per_metre as f32 }
+    /// A sensor with the optics of a model.
+    pub fn new(model: &CameraModel) -> Self {
+        Self { lens: Lens::new(model), model: *model }
     }
 
     /// Takes a depth image; no `noise`: disparity is exact but for its rounding, and no dot gets lost.
@@ -54,12 +53,12 @@ impl DepthSensor {
         if let Some(mut noise) = noise {
             disparity = self.disturbed(&disparity, &mut noise);
         }
-        let (width, height) = self.camera.model.size();
+        let (width, height) = self.model.size();
         let values = disparity.iter().enumerate().map(|(pixel, seen)| {
             let steps = (seen.disparity * STEPS_PER_PIXEL).round();
             let depth = STEPS_PER_PIXEL * self.focal_baseline() / steps;
             let is_seen = steps > 0.0 && RANGE.contains(&depth) && pixel % width < width - BLIND_COLUMNS;
-            if is_seen { (depth * self.units_per_metre).round() as u16 } else { 0 }
+            if is_seen { (depth * UNITS_PER_METRE as f32).round() as u16 } else { 0 }
         });
         // One value a pixel of the lens.
         Image::from_pixels(width, height, values.collect()).unwrap_or_else(|| Image::filled(width, height, 0))
@@ -67,12 +66,12 @@ impl DepthSensor {
 
     /// Focal length times baseline, pixel metres: disparity is this over Z.
     fn focal_baseline(&self) -> f32 {
-        (self.camera.model.fx * BASELINE) as f32
+        (self.model.fx * BASELINE) as f32
     }
 
     /// What an ideal device would see.
     fn disparity(&self, scene: &Scene, pose: &Pose) -> Vec<Dot> {
-        let (width, height) = self.camera.model.size();
+        let (width, height) = self.model.size();
         let mut dots = vec![Dot::NONE; width * height];
         let projector = pose.position + pose.rotation * (Vec3A::X * BASELINE as f32);
         let solids = scene.solids();
@@ -101,7 +100,7 @@ impl DepthSensor {
 
     /// Ragged edges, drop-outs and noise.
     fn disturbed(&self, exact: &[Dot], noise: &mut ChaCha8Rng) -> Vec<Dot> {
-        let (width, height) = self.camera.model.size();
+        let (width, height) = self.model.size();
         let blocks_across = width.div_ceil(BLOCK);
         let blocks: Vec<(i32, i32, f32)> = (0..blocks_across * height.div_ceil(BLOCK))
             .map(|_| (noise.random_range(-RAGGED..=RAGGED), noise.random_range(-RAGGED..=RAGGED), noise.random()))

@@ -37,7 +37,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::Isometry3;
 use rayon::prelude::*;
-use sunblind_estimator::camera::DepthEncoding;
 use sunblind_estimator::image::{DepthImage, RgbImage};
 use sunblind_estimator::{Rig, Timestamp};
 
@@ -79,11 +78,7 @@ impl TexturedRoom {
     /// Builds and lights the room: a few seconds of computing, shared by all threads.
     pub fn new() -> Self {
         let rig = rig();
-        let units_per_metre = match rig.depth.encoding {
-            DepthEncoding::Linear { units_per_metre } => units_per_metre,
-            DepthEncoding::KinectDisparity { .. } => unreachable!("the room's device delivers metric depth"),
-        };
-        let (colour, depth) = (ColourCamera::new(&rig.colour), DepthSensor::new(rig.depth, units_per_metre));
+        let (colour, depth) = (ColourCamera::new(&rig.colour), DepthSensor::new(&rig.depth.model));
         Self { scene: LitScene::new(furnished_room()), rig, colour, depth }
     }
 

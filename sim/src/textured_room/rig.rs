@@ -8,6 +8,9 @@ use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distor
 /// Projector to infrared camera, metres; the projector sits at +x (ROS `kinect_calibration/technical`).
 pub const BASELINE: f64 = 0.075;
 
+/// What a depth image counts in: as TUM RGB-D files do.
+pub const UNITS_PER_METRE: f64 = 5000.0;
+
 /// Columns of both images.
 pub const WIDTH: usize = 640;
 /// Rows of both images.
@@ -37,7 +40,7 @@ pub fn rig() -> Rig {
                 cy: 239.1,
                 distortion: Distortion::default(),
             },
-            encoding: DepthEncoding::Linear { units_per_metre: 5000.0 },
+            encoding: DepthEncoding::Linear { units_per_metre: UNITS_PER_METRE },
             registered_to_colour: false,
         },
         colour_from_depth: Isometry3::from_parts(
