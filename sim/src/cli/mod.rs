@@ -3,6 +3,7 @@
 pub mod bug;
 mod output;
 mod overrides;
+mod record;
 mod replay;
 mod table;
 
@@ -14,19 +15,21 @@ use sunblind_estimator::ParamError;
 use thiserror::Error;
 
 use crate::record::RecordError;
+use crate::record::writer::WriteError;
 use crate::runner::ReplayError;
+use crate::scenario::ScenarioError;
 
 /// What the user gave can't be worked with.
 const BAD_INPUT: u8 = 2;
 
 const ABOUT: &str = "\
-A testbed for ground-robot localisation with a Kinect: replays recordings through the estimator that runs on the robot, \
-and shows how far from the truth it is.
+A testbed for ground-robot localisation with a Kinect: makes recordings, replays them through the estimator that runs on \
+the robot, and shows how far from the truth it is.
 
 Exit codes:
   0   done, and every expectation held
   1   an expectation was missed
-  2   bad usage, or a recording that can't be used; the message says where and what to do
+  2   bad usage, or a scenario or recording that can't be used; the message says where and what to do
   3   no graphics adapter
   70  a bug in sunblind; please report it";
 
@@ -39,12 +42,17 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Record(record::Record),
     Replay(replay::Replay),
 }
 
 /// Why a command failed: always something about what it was given.
 #[derive(Debug, Error)]
 enum Failure {
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
     #[error(transparent)]
     Record(#[from] RecordError),
     #[error(transparent)]
@@ -61,6 +69,7 @@ enum Failure {
 pub fn run() -> ExitCode {
     bug::exit_on_panic();
     let outcome = match Cli::parse().command {
+        Command::Record(record) => record.run(),
         Command::Replay(replay) => replay.run(),
     };
     match outcome {

@@ -1,4 +1,5 @@
-//! Recordings on disk: the TUM RGB-D layout with a `calibration.toml`. Images are decoded when they are wanted.
+//! Recordings on disk: the TUM RGB-D layout with a `calibration.toml`. Images are decoded when they are wanted;
+//! a recording that is written appears whole or not at all.
 
 pub mod calibration;
 pub mod error;
@@ -7,6 +8,7 @@ mod list;
 pub mod place;
 mod truth;
 pub mod tum;
+pub mod writer;
 
 pub use calibration::Body;
 pub use error::RecordError;
