@@ -17,7 +17,7 @@ const FRAMES: usize = 150;
 const STAGES: [&str; 4] = ["registration", "features", "matching", "motion"];
 
 fn main() {
-    let Some(recording) = recorded::open("kinect1_redkitchen") else { return };
+    let recording = recorded::open("kinect1_redkitchen");
     let count = recording.frames.len().min(FRAMES);
     let frames: Vec<Frame> = (0..count).map(|index| recorded::frame(&recording, index)).collect();
     println!("{count} frames of 640×480, milliseconds a frame on one core, median and 95 %");

@@ -27,7 +27,7 @@ struct Time {
 }
 
 fn main() {
-    let Some(recording) = recorded::open("kinect1_redkitchen") else { return };
+    let recording = recorded::open("kinect1_redkitchen");
     let image = recorded::frame(&recording, 0).rgb.to_luma();
     let dlib = Dlib::built(&image);
 

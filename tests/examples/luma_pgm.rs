@@ -19,7 +19,7 @@ fn main() -> io::Result<()> {
     fs::write(folder.join("pairs.txt"), names.concat())?;
 
     for frame in pairs.into_iter().flat_map(|(from, to)| [from, to]).collect::<BTreeSet<_>>() {
-        let recording = recorded::open(frame.recording).expect("the recordings");
+        let recording = recorded::open(frame.recording);
         pgm::write(&folder.join(frame.name() + ".pgm"), &recorded::frame(&recording, frame.index).rgb.to_luma())?;
     }
     Ok(())

@@ -55,6 +55,7 @@ fn scores(dlib: &DlibSurf, recording: &Recording, from: &FrameId, to: &FrameId) 
 }
 
 #[test]
+#[cfg_attr(not(recorded_data), ignore = "no recorded data")]
 fn ours_finds_spots_again_as_well_as_dlib() {
     let dlib = DlibSurf::load();
     let pairs = frame_pairs();
@@ -62,7 +63,7 @@ fn ours_finds_spots_again_as_well_as_dlib() {
     println!("{:>42}{:>14}{:>14}{:>14}", "repeated %", "matches", "within 3 px", "within 5 px");
     println!("{:32}{}", "", "  ours   dlib".repeat(4));
     for (from, to) in &pairs {
-        let Some(recording) = recorded::open(from.recording) else { return };
+        let recording = recorded::open(from.recording);
         let [ours, theirs] = scores(&dlib, &recording, from, to);
         let table: String = [
             [ours, theirs].map(|score| 100.0 * score.repeatability()),
@@ -87,11 +88,12 @@ fn ours_finds_spots_again_as_well_as_dlib() {
 }
 
 #[test]
+#[cfg_attr(not(recorded_data), ignore = "no recorded data")]
 fn dlibs_keypoints_are_ours_too() {
     let dlib = DlibSurf::load();
     let (mut shared, mut total) = (0, 0);
     for (frame, _) in frame_pairs() {
-        let Some(recording) = recorded::open(frame.recording) else { return };
+        let recording = recorded::open(frame.recording);
         let ours: Vec<_> = detect(&recording, &frame).iter().map(keypoint).collect();
         let same = |theirs: &Keypoint, ours: &Keypoint| {
             (theirs.pixel - ours.pixel).norm() < 2.0 && (0.8..1.25).contains(&(ours.scale / theirs.scale))
@@ -107,10 +109,11 @@ fn dlibs_keypoints_are_ours_too() {
 }
 
 #[test]
+#[cfg_attr(not(recorded_data), ignore = "no recorded data")]
 fn the_judge_notices_a_wrong_motion() {
     let dlib = DlibSurf::load();
     for (from, to) in frame_pairs().into_iter().filter(|(from, to)| to.index - from.index >= 15) {
-        let Some(recording) = recorded::open(from.recording) else { return };
+        let recording = recorded::open(from.recording);
         let [first, second] =
             [&from, &to].map(|frame| View::new(&recording.rig, &recorded::frame(&recording, frame.index).depth));
         let found = Found { from: dlib.keypoints(&from), to: dlib.keypoints(&to), matches: dlib.matches(&from, &to) };
