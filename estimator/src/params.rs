@@ -67,6 +67,7 @@ impl EstimatorParams {
             positive("keyframes.lost_sigma_rad", self.keyframes.lost_rotation),
             positive("paper.max_distance_m", self.paper.max_distance),
             at_least_one("paper.max_iterations", self.paper.max_iterations),
+            positive("paper.max_depth_m", self.paper.max_depth),
         ];
         match checks.into_iter().find(|(.., holds, _)| !holds) {
             Some((key, value, _, wanted)) => Err(ParamError::OutOfRange { key, value, wanted }),
