@@ -3,11 +3,12 @@
 //! [`Localizer::handle`], estimates come out of [`Localizer::estimate`]; equal inputs give equal bytes.
 //!
 //! Rooms, bottom to top: [`time`], [`geometry`], [`image`], [`camera`], [`features`], [`structure`], [`motion`],
-//! [`measurement`] (the seam), [`odometry`], [`estimator`].
+//! [`measurement`] (the seam), [`odometry`], [`fusion`], [`estimator`].
 
 pub mod camera;
 pub mod estimator;
 pub mod features;
+pub mod fusion;
 pub mod geometry;
 pub mod image;
 pub mod measurement;
@@ -18,7 +19,7 @@ pub mod structure;
 pub mod time;
 
 pub use camera::Rig;
-pub use estimator::{Estimator, Stage};
+pub use estimator::{Estimator, PoseSource, Stage};
 pub use measurement::{
     Disposition, Estimate, Health, Localizer, Measurement, MeasurementData, Mode, Rejection, Streams,
 };
