@@ -3,13 +3,14 @@
 //! [`Localizer::handle`], estimates come out of [`Localizer::estimate`]; equal inputs give equal bytes.
 //!
 //! Rooms, bottom to top: [`time`], [`geometry`], [`image`], [`camera`], [`features`], [`structure`], [`motion`],
-//! [`measurement`] (the seam), [`odometry`], [`fusion`], [`estimator`].
+//! [`measurement`] (the seam), [`odometry`], [`fusion`], [`guidance`], [`estimator`].
 
 pub mod camera;
 pub mod estimator;
 pub mod features;
 pub mod fusion;
 pub mod geometry;
+pub mod guidance;
 pub mod image;
 pub mod measurement;
 pub mod motion;
