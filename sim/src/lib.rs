@@ -4,8 +4,10 @@
 
 pub mod cli;
 pub mod evaluation;
+pub mod random;
 pub mod record;
 pub mod report;
+pub mod robot;
 pub mod runner;
 pub mod textured_room;
 pub mod world;
