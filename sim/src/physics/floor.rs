@@ -35,8 +35,9 @@ pub struct Floor {
     pub variation: GripVariation,
 }
 
-/// The range of α: at −1 the ground would drive the wheel backwards; +1 leaves half of the turning resistance.
-const ANISOTROPY: std::ops::RangeInclusive<f64> = -0.65..=1.0;
+/// The range of α. At −1 the ground would drive the wheel backwards; towards +1 the slip of one step, which the next
+/// one answers, would swing from side to side.
+const ANISOTROPY: std::ops::RangeInclusive<f64> = -0.65..=0.5;
 
 impl Floor {
     /// Even everywhere, and no slip but that of turning: for tests and for comparison.
@@ -63,7 +64,7 @@ impl Floor {
     /// Bare concrete.
     pub const CONCRETE: Self = Self {
         grip: Grip { anisotropy: -0.05, slip: 0.005, friction: 0.85 },
-        variation: GripVariation { anisotropy: 0.18, slip: 0.007, correlation_length: 0.6 },
+        variation: GripVariation { anisotropy: 0.16, slip: 0.006, correlation_length: 0.6 },
     };
 
     /// How much wider apart two wheels would have to stand to turn the robot as its four do, on average over this

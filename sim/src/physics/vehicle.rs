@@ -12,8 +12,8 @@ use crate::robot::{Geometry, Inertial, RobotModel, Shape, Side, WheelSpeeds};
 
 /// How hard a motor holds its speed, N·m·s/rad. At 20 a spin of 60 °/s reached only 54.7; measured.
 const MOTOR_STIFFNESS: f64 = 1000.0;
-/// The rounding of a wheel's edge where it meets obstacles, metres; a guess.
-const TYRE_ROUNDING: f64 = 0.01;
+/// The rounding of a wheel's edge where it meets obstacles, as a share of its width or radius; a guess.
+const TYRE_ROUNDING: f64 = 0.1;
 /// Tyres and body against obstacles: the obstacle's own friction counts alone.
 const UNIT_FRICTION: f64 = 1.0;
 
@@ -54,11 +54,9 @@ impl Vehicle {
                 .density(0.0)
                 .collision_groups(groups::TYRE_TOUCHES)
                 .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
-            let flank = ColliderBuilder::round_cylinder(
-                wheel.width / 2.0 - TYRE_ROUNDING,
-                wheel.radius - TYRE_ROUNDING,
-                TYRE_ROUNDING,
-            );
+            let rounding = TYRE_ROUNDING * wheel.width.min(wheel.radius);
+            let flank =
+                ColliderBuilder::round_cylinder(wheel.width / 2.0 - rounding, wheel.radius - rounding, rounding);
             let axle = RevoluteJointBuilder::new(Vector::Y)
                 .local_anchor1(convert::point(&wheel.hub))
                 .local_anchor2(Vector::ZERO)

@@ -97,7 +97,7 @@ pub(super) fn load(text: &str, mount: &CameraMount) -> Result<RobotModel, UrdfEr
     let mut walk = Walk { robot: &robot, seen: BTreeSet::new(), wheels: Vec::new(), robot_from_camera: None };
     let root = root(&robot)?;
     let body = walk.body(&root, &Isometry3::identity(), Hangs::OnTheChassis)?;
-    if !(body.inertial.mass > 0.0) {
+    if !is_positive(body.inertial.mass) {
         return Err(UrdfError::Mass { body: root, mass: body.inertial.mass });
     }
     let count = |side| walk.wheels.iter().filter(|wheel| wheel.side == side).count();
@@ -216,7 +216,10 @@ impl<'a> Walk<'a> {
         if (robot_from_shape.rotation * Vector3::z()).y.abs() < 1.0 - 1e-9 {
             return Err(wrong("its cylinder must lie along the axle; write <origin rpy=\"1.5707963267948966 0 0\"/>"));
         }
-        if !(body.inertial.mass > 0.0) {
+        if !(is_positive(radius) && is_positive(length)) {
+            return Err(wrong("its cylinder has no size"));
+        }
+        if !is_positive(body.inertial.mass) {
             return Err(UrdfError::Mass { body: name, mass: body.inertial.mass });
         }
         if !(joint.limit.effort > 0.0 && joint.limit.velocity > 0.0) {
@@ -234,6 +237,10 @@ impl<'a> Walk<'a> {
             name,
         })
     }
+}
+
+fn is_positive(value: f64) -> bool {
+    value.is_finite() && value > 0.0
 }
 
 fn shapes(link: &urdf_rs::Link, body_from_link: &Isometry3<f64>) -> Result<Vec<Shape>, UrdfError> {
