@@ -3,6 +3,10 @@
 //! World frame: x east, y north, z up; metres. Light has two bands everywhere: visible (linear RGB, lux) and 830 nm
 //! (W m⁻² nm⁻¹).
 
+pub mod material;
+pub mod refine;
+pub mod shape;
+
 /// Edge of every texture, texels.
 pub const TEXTURE_SIZE: usize = 512;
 
