@@ -4,6 +4,10 @@ use glam::{Mat3, Vec3, vec3};
 
 use super::Mesh;
 
+/// Faces are cut at least this often along each edge, metres, so that light kept at vertices shows shadows. Cutting
+/// long strips crosswise here also spares bisection the slivers it is bad at.
+const STEP: f32 = 0.3;
+
 /// How a texture lies on a face.
 #[derive(Clone, Copy, Debug)]
 pub enum Mapping {
@@ -54,20 +58,22 @@ impl Place {
     }
 }
 
+/// The cuts given, ascending, and evenly between them as many as keep to [`STEP`].
+pub fn even_cuts(cuts: &[f32]) -> Vec<f32> {
+    let mut all = vec![cuts[0]];
+    for pair in cuts.windows(2) {
+        let steps = ((pair[1] - pair[0]) / STEP - 1e-3).ceil().max(1.0);
+        all.extend((1..=steps as u32).map(|step| pair[0] + (pair[1] - pair[0]) * step as f32 / steps));
+    }
+    all
+}
+
 impl Mesh {
-    /// A parallelogram with its top left `corner`, its upper edge `right` and its left edge `down`, as seen from the
-    /// side it faces.
+    /// A rectangle with its top left `corner`, its upper edge `right` and its left edge `down`, as seen from the side it
+    /// faces.
     pub fn quad(corner: Vec3, right: Vec3, down: Vec3, mapping: Mapping) -> Self {
-        let (width, height) = (right.length(), down.length());
-        let normal = down.cross(right).normalize().to_array();
-        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-        Self {
-            positions: corners.iter().map(|&(u, v)| (corner + u * right + v * down).to_array()).collect(),
-            normals: vec![normal; 4],
-            uvs: corners.iter().map(|&(u, v)| mapping.uv([u * width, v * height], [width, height])).collect(),
-            irradiance: Vec::new(),
-            triangles: vec![[0, 3, 2], [0, 2, 1]],
-        }
+        let [columns, rows] = [right, down].map(|edge| even_cuts(&[0.0, edge.length()]));
+        Self::grid(corner, right, down, [&columns, &rows], |_, _| false, mapping)
     }
 
     /// A quad cut along `columns` and `rows` (metres from its top left corner, ascending, ends included), without the
@@ -130,18 +136,21 @@ impl Mesh {
         };
         let round = std::f32::consts::TAU * radii[0].max(radii[1]);
         let mut mesh = Self::default();
+        let heights = even_cuts(&[0.0, length]);
         for side in 0..=sides {
             let normal = (out(side) + along * (radii[0] - radii[1]) / length).normalize().to_array();
             let u = side as f32 / sides as f32 * round;
-            for (end, radius, v) in [(from, radii[0], length), (to, radii[1], 0.0)] {
-                mesh.positions.push((end + radius * out(side)).to_array());
+            for &height in &heights {
+                let radius = radii[0] + (radii[1] - radii[0]) * height / length;
+                mesh.positions.push((from + height * along + radius * out(side)).to_array());
                 mesh.normals.push(normal);
-                mesh.uvs.push(mapping.uv([u, v], [round, length]));
+                mesh.uvs.push(mapping.uv([u, length - height], [round, length]));
             }
         }
-        for side in 0..sides {
-            let first = 2 * side;
-            mesh.triangles.extend([[first, first + 2, first + 3], [first, first + 3, first + 1]]);
+        let rings = heights.len() as u32;
+        for (side, ring) in (0..sides).flat_map(|side| (0..rings - 1).map(move |ring| (side, ring))) {
+            let (here, next) = (side * rings + ring, (side + 1) * rings + ring);
+            mesh.triangles.extend([[here, next, next + 1], [here, next + 1, here + 1]]);
         }
         for (end, radius, facing) in [(from, radii[0], -along), (to, radii[1], along)] {
             let first = mesh.positions.len() as u32;
@@ -264,9 +273,10 @@ mod tests {
     #[test]
     fn a_quad_shows_its_texture_upright_to_who_looks_at_it() {
         let mesh = Mesh::quad(Vec3::Z, Vec3::X, -Vec3::Z, Mapping::Fitted);
+        let last = mesh.positions.len() - 1;
         assert_eq!(mesh.normals[0], [0.0, -1.0, 0.0]);
         assert_eq!((mesh.positions[0], mesh.uvs[0]), ([0.0, 0.0, 1.0], [0.0, 0.0]));
-        assert_eq!((mesh.positions[2], mesh.uvs[2]), ([1.0, 0.0, 0.0], [1.0, 1.0]));
+        assert_eq!((mesh.positions[last], mesh.uvs[last]), ([1.0, 0.0, 0.0], [1.0, 1.0]));
     }
 
     #[test]

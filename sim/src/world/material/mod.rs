@@ -156,12 +156,14 @@ impl Surface {
 
     /// How its texture lies on a face. `shift` in 0..1 moves a repeating texture, so that no two pieces look alike.
     pub fn mapping(self, shift: [f32; 2]) -> Mapping {
+        let [width, height] = self.recipe().size;
+        self.mapping_from([shift[0] * width, shift[1] * height])
+    }
+
+    /// The same, with the shift in metres: faces that continue each other line up.
+    pub fn mapping_from(self, offset: [f32; 2]) -> Mapping {
         let Recipe { size, repeats, .. } = self.recipe();
-        if repeats {
-            Mapping::Tiled { span: size, offset: [shift[0] * size[0], shift[1] * size[1]] }
-        } else {
-            Mapping::Fitted
-        }
+        if repeats { Mapping::Tiled { span: size, offset } } else { Mapping::Fitted }
     }
 
     fn recipe(self) -> Recipe {

@@ -26,7 +26,7 @@ pub fn park(size: [f32; 2], seed: u32) -> Canvas {
         let (x, crown) = (width * (tree as f32 + pick(0)) / 9.0, 0.8 + 1.1 * pick(1));
         let middle = horizon - 1.2 - 1.6 * pick(2);
         canvas.rectangle([x - 0.09, middle, x + 0.09, horizon + 0.2], Coat::Opaque([0.09, 0.065, 0.045, 0.3]));
-        for puff in 0..26 {
+        for puff in 0..220 {
             let [dx, dy, tone, r] = [0, 1, 2, 3].map(|i| hash(puff, i, seed + 10 + tree));
             let (dx, dy) = ((dx - 0.5) * 1.9 * crown, (dy - 0.5) * 1.9 * crown);
             if dx.hypot(dy) > crown {
@@ -34,7 +34,7 @@ pub fn park(size: [f32; 2], seed: u32) -> Canvas {
             }
             let light = (0.6 + 0.7 * tone) * (1.0 - 0.3 * dy / crown);
             let green = LEAF.map(|albedo| (albedo * light * 1.2).min(0.6));
-            canvas.disc([x + dx, middle + dy], (0.12 + 0.3 * r) * crown, Coat::Opaque(green));
+            canvas.disc([x + dx, middle + dy], (0.04 + 0.13 * r) * crown, Coat::Opaque(green));
         }
     }
     canvas.rectangle([0.0, horizon, width, height], Coat::Opaque([0.06, 0.12, 0.045, 0.49]));
