@@ -63,7 +63,8 @@ pub fn even_cuts(cuts: &[f32]) -> Vec<f32> {
     let mut all = vec![cuts[0]];
     for pair in cuts.windows(2) {
         let steps = ((pair[1] - pair[0]) / STEP - 1e-3).ceil().max(1.0);
-        all.extend((1..=steps as u32).map(|step| pair[0] + (pair[1] - pair[0]) * step as f32 / steps));
+        all.extend((1..steps as u32).map(|step| pair[0] + (pair[1] - pair[0]) * step as f32 / steps));
+        all.push(pair[1]);
     }
     all
 }

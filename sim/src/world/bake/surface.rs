@@ -83,9 +83,8 @@ impl Points {
     pub fn add_glow(&self, light: &mut [Bands], lamps: &[Lamp]) {
         for (vertex, light) in light.iter_mut().enumerate() {
             for lamp in lamps.iter().filter(|lamp| covers(lamp, self.positions[vertex], self.normals[vertex])) {
-                for band in 0..4 {
-                    light[band] += lamp.exitance[band] / self.albedos[vertex][band];
-                }
+                let glow = std::array::from_fn(|band| lamp.exitance[band] / self.albedos[vertex][band]);
+                *light = add(*light, glow);
             }
         }
     }

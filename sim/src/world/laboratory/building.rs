@@ -8,13 +8,13 @@ use crate::world::scene::{Kind, Piece, Scene};
 use crate::world::shape::{Place, even_cuts};
 use crate::world::{Lamp, Mesh};
 
-/// Exitance of a ceiling panel's cover, lux. A LED panel of 0.72 m² and some 6000 lm. 830 nm: none, it is a white LED.
-const PANEL: [f32; 4] = [8600.0, 8400.0, 8000.0, 0.0];
+/// Exitance of a ceiling panel's cover, lux. A LED panel of 0.72 m² and some 5200 lm. 830 nm: none, it is a white LED.
+const PANEL: [f32; 4] = [7400.0, 7200.0, 6900.0, 0.0];
 /// Exitance of a window in daylight, lux: an overcast day, sky and park seen through clear glass. 830 nm: 0.007
 /// W m⁻² nm⁻¹ per klx, overcast (estimate).
-const DAYLIGHT: [f32; 4] = [3800.0, 4000.0, 4300.0, 0.028];
+const DAYLIGHT: [f32; 4] = [2850.0, 3000.0, 3200.0, 0.021];
 /// The same on what stands outside, lux: brighter than what of it comes through a window, as its albedo is about 0.4.
-const OUTDOORS: [f32; 4] = [11_000.0, 11_500.0, 12_300.0, 0.08];
+const OUTDOORS: [f32; 4] = [8200.0, 8600.0, 9200.0, 0.06];
 
 /// A hole in a wall: along it, and above the floor, metres.
 #[derive(Clone, Copy)]
@@ -72,7 +72,7 @@ impl Wall {
         scene.piece(&format!("{}, skirting", self.name), Kind::Decor, self.place(), |piece| {
             let doorway = |left: f32| {
                 let within = |[from, to]: [f32; 2]| from <= left && left < to;
-                openings.iter().any(|opening| opening.height[0] < 0.1 && within(opening.along))
+                openings.iter().any(|opening| opening.height[0] == 0.0 && within(opening.along))
             };
             for pair in columns.windows(2).filter(|pair| !doorway(pair[0])) {
                 let right = vec3(pair[1] - pair[0], 0.0, 0.0);
@@ -97,7 +97,7 @@ fn cheeks(piece: &mut Piece, Opening { along: [left, right], height: [bottom, to
 /// A window in an opening: frame, bars, sill, and the daylight that comes through.
 pub(super) fn window(scene: &mut Scene, wall: &Wall, opening: &Opening) {
     let Opening { along: [left, right], height: [bottom, top], cheeks } = *opening;
-    scene.piece(&format!("{}, window", wall.name), Kind::Solid, wall.place(), |piece| {
+    scene.piece(&format!("{}, window at {left}", wall.name), Kind::Solid, wall.place(), |piece| {
         let (near, far, bar) = (cheeks - 0.06, cheeks, 0.05);
         let middle = 0.5 * (left + right);
         for x in [left, middle - 0.5 * bar, right - bar] {
@@ -115,7 +115,7 @@ pub(super) fn window(scene: &mut Scene, wall: &Wall, opening: &Opening) {
     // Before the bars: what they shade is little, and their own shadows would want more rays.
     let centre = place.point(vec3(0.5 * (left + right), cheeks - 0.07, 0.5 * (bottom + top)));
     scene.lamp(Lamp {
-        name: format!("{}, daylight", wall.name),
+        name: format!("{}, daylight at {left}", wall.name),
         centre: centre.to_array(),
         half_edges: [along.to_array(), [0.0, 0.0, 0.5 * (top - bottom)]],
         exitance: DAYLIGHT,

@@ -73,11 +73,11 @@ fn benches(scene: &mut Scene) {
 
     // The island's front looks at the path, to its south.
     for (index, x) in [4.0, 5.6].into_iter().enumerate() {
-        bench(scene, &format!("island bench {index}"), Place::new(x, 6.85, 0.0, 0.0), 1.6);
+        bench(scene, &format!("island bench {index}"), Place::new(x, 6.65, 0.0, 0.0), 1.6);
     }
-    gantry(scene, "island gantry", Place::new(4.0, 7.05, 0.0, 0.0), 1.5);
-    gantry(scene, "second island gantry", Place::new(5.6, 7.05, 0.0, 0.0), 1.5);
-    let island = |x: f32, yaw_deg: f32| Place::new(x, 6.75, BENCH, yaw_deg);
+    gantry(scene, "island gantry", Place::new(4.0, 6.85, 0.0, 0.0), 1.5);
+    gantry(scene, "second island gantry", Place::new(5.6, 6.85, 0.0, 0.0), 1.5);
+    let island = |x: f32, yaw_deg: f32| Place::new(x, 6.55, BENCH, yaw_deg);
     oscilloscope(scene, "island, oscilloscope", island(3.6, 12.0));
     power_supplies(scene, "island, power supplies", island(4.2, -6.0));
     papers(scene, "island, papers", island(4.65, 20.0));
@@ -89,11 +89,11 @@ fn benches(scene: &mut Scene) {
 fn rest(scene: &mut Scene, seed: u64) {
     // Low shelves between path and desks; they show their books to the path.
     for (index, x) in [4.2, 5.12, 6.04].into_iter().enumerate() {
-        let place = Place::new(x, 4.25, 0.0, 180.0);
+        let place = Place::new(x, 4.72, 0.0, 180.0);
         shelf(scene, &format!("low shelf {index}"), place, 3, Surface::Oak, seed.wrapping_add(index as u64));
     }
-    carton(scene, "shelf, carton", Kind::Decor, Place::new(4.3, 4.25, 1.2, 170.0), [0.36, 0.28, 0.24]);
-    carton(scene, "shelf, second carton", Kind::Decor, Place::new(5.9, 4.27, 1.2, 192.0), [0.3, 0.26, 0.3]);
+    carton(scene, "shelf, carton", Kind::Decor, Place::new(4.3, 4.72, 1.2, 170.0), [0.36, 0.28, 0.24]);
+    carton(scene, "shelf, second carton", Kind::Decor, Place::new(5.9, 4.74, 1.2, 192.0), [0.3, 0.26, 0.3]);
     let screens = [Surface::CodeScreen, Surface::PlotScreen];
     workplace(scene, "laboratory desk", Place::new(5.9, 2.85, 0.0, 180.0), Surface::Oak, &screens);
     bin(scene, "laboratory, bin", Place::new(6.75, 3.75, 0.0, 0.0), Surface::GreyPlastic);
@@ -102,10 +102,10 @@ fn rest(scene: &mut Scene, seed: u64) {
     for (index, y) in [2.72, 3.64, 7.3].into_iter().enumerate() {
         cabinet(scene, &format!("west cabinet {index}"), Place::new(0.24, y, 0.0, 90.0));
     }
-    robot_arm(scene, Place::new(0.75, 6.35, 0.0, 60.0));
-    trolley(scene, Place::new(0.45, 4.75, 0.0, 96.0));
+    robot_arm(scene, Place::new(1.45, 6.5, 0.0, 60.0));
+    trolley(scene, Place::new(1.2, 5.1, 0.0, 100.0));
     rover(scene, "parked rover", Place::new(1.3, 4.05, 0.0, 140.0));
     rack(scene, Place::new(1.25, 2.68, 0.0, 180.0));
-    gas_bottles(scene, Place::new(6.98, 4.62, 0.0, -90.0));
+    gas_bottles(scene, Place::new(6.99, 4.5, 0.0, -90.0));
     radiator(scene, "laboratory, radiator", Place::new(0.0, 8.25, 0.0, 90.0), 0.8);
 }

@@ -53,7 +53,7 @@ fn furnish(scene: &mut Scene, seed: u64) {
     let screens = [Surface::CodeScreen, Surface::PlotScreen];
     workplace(scene, "east desk", Place::new(11.55, 3.35, 0.0, -90.0), Surface::Walnut, &screens);
     workplace(scene, "second east desk", Place::new(11.55, 5.35, 0.0, -90.0), Surface::Walnut, &screens[..1]);
-    partition(scene, "desk screen", Place::new(11.2, 4.35, 0.0, 0.0), 1.5);
+    partition(scene, "desk screen", Place::new(11.1, 4.35, 0.0, 0.0), 1.7);
     workplace(scene, "north desk", Place::new(10.4, 8.15, 0.0, 0.0), Surface::Walnut, &screens[1..]);
     cabinet(scene, "office cabinet", Place::new(11.7, 7.9, 0.0, -90.0));
     bin(scene, "office, bin", Place::new(10.95, 4.65, 0.0, 0.0), Surface::BlackPlastic);
@@ -85,10 +85,10 @@ fn furnish(scene: &mut Scene, seed: u64) {
     carton(scene, "office shelf, carton", Kind::Decor, Place::new(10.5, 6.6, 1.2, 12.0), [0.4, 0.28, 0.26]);
     carton(scene, "office shelf, second carton", Kind::Decor, Place::new(9.8, 6.62, 1.2, -8.0), [0.3, 0.24, 0.2]);
 
-    round_table(scene, "round table", Place::new(8.3, 3.5, 0.0, 0.0));
-    papers(scene, "round table, papers", Place::new(8.25, 3.5, DESK, 40.0));
-    plain_chair(scene, "round table, chair", Place::new(8.45, 4.2, 0.0, -15.0));
-    plain_chair(scene, "round table, second chair", Place::new(8.35, 2.75, 0.0, 170.0));
+    round_table(scene, "round table", Place::new(8.55, 3.6, 0.0, 0.0));
+    papers(scene, "round table, papers", Place::new(8.5, 3.6, DESK, 40.0));
+    plain_chair(scene, "round table, chair", Place::new(8.65, 4.3, 0.0, -15.0));
+    plain_chair(scene, "round table, second chair", Place::new(8.5, 2.85, 0.0, 170.0));
     plant(scene, "office plant", Kind::Solid, Place::new(7.6, 8.5, 0.0, 30.0), 1.5);
     cabinet(scene, "office west cabinet", Place::new(7.4, 7.75, 0.0, 90.0));
     plant(scene, "office corner plant", Kind::Solid, Place::new(11.65, 6.75, 0.0, 60.0), 1.1);

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::world::Object;
+use crate::world::bake::{Effort, bake};
 
 static WORLD: LazyLock<World> = LazyLock::new(|| laboratory(1));
 
@@ -119,7 +120,7 @@ fn a_kinect_sees_structure_in_its_range_nearly_all_the_way() {
         let mut above_floor = 0;
         for row in -5..=5 {
             for column in -7..=7 {
-                // 16 × 12 rays over the Kinect's 58° × 45°.
+                // 15 × 11 rays over the Kinect's 58° × 45°.
                 let (u, v) = (0.55 * f64::from(column) / 7.0, 0.41 * f64::from(row) / 5.0);
                 let way = (ahead + u * left).extend(v);
                 let Some(hit) = rays.first(eye, way, f64::MAX) else { continue };
@@ -132,4 +133,24 @@ fn a_kinect_sees_structure_in_its_range_nearly_all_the_way() {
     }
     let all = points.len() as i32 / 3;
     assert!(poor * 10 <= all, "{poor} of {all} places show too little");
+}
+
+#[test]
+fn desks_have_office_light_and_only_windows_bring_830_nm() {
+    let mut world = WORLD.clone();
+    bake(&mut world, &Effort { rays: 24, bounces: 3, lamp_step: 0.6 }, &|_| ());
+    for Object { name, mesh, .. } in &world.objects {
+        assert!(mesh.irradiance.iter().flatten().all(|&value| value.is_finite() && value >= 0.0), "{name}");
+    }
+    let on_top = |name: &str, band: usize| {
+        let mesh = &world.objects.iter().find(|object| object.name == name).expect("it is there").mesh;
+        let top = (0..mesh.positions.len()).filter(|&index| mesh.normals[index][2] > 0.9);
+        let light: Vec<f32> = top.map(|index| mesh.irradiance[index][band]).filter(|&value| value > 0.0).collect();
+        light.iter().sum::<f32>() / light.len() as f32
+    };
+    for desk in ["laboratory desk, Oak", "east desk, Walnut", "island bench 1, Resin"] {
+        assert!((300.0..550.0).contains(&on_top(desk, 1)), "{desk}: {} lx", on_top(desk, 1));
+    }
+    // One has its back to the windows, the other stands below one.
+    assert!(on_top("north desk, Walnut", 3) > 5.0 * on_top("laboratory desk, Oak", 3));
 }
