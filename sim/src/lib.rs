@@ -4,6 +4,7 @@
 
 pub mod cli;
 pub mod evaluation;
+pub mod new_folder;
 pub mod random;
 pub mod record;
 pub mod report;
