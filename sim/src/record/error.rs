@@ -62,7 +62,7 @@ pub enum RecordError {
     )]
     Size { file: PathBuf, camera: &'static str, found: (usize, usize), expected: (usize, usize) },
     /// A depth or infrared image that is not 16-bit grey.
-    #[error("{}: a {kind} image must be a 16-bit grey PNG, this one is {found}; export {kind} again with 16 bits a pixel and \
+    #[error("{}: {kind} must be 16-bit grey PNG, this image is {found}; export {kind} again with 16 bits a pixel and \
          without colours", file.display())]
     Not16Bit { file: PathBuf, kind: &'static str, found: String },
     /// An infrared image that was scaled.
