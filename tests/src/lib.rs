@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod fake_localizer;
+pub mod mrclam;
 pub mod oracle;
 pub mod pgm;
 pub mod recorded;
