@@ -7,4 +7,5 @@ pub mod oracle;
 pub mod pgm;
 pub mod recorded;
 pub mod repeatability;
+pub mod tiny_drive;
 pub mod tiny_recording;

@@ -47,7 +47,7 @@ pub fn rig() -> Rig {
             Translation3::new(-0.025, 0.0004, -0.0012),
             UnitQuaternion::from_scaled_axis(Vector3::new(0.003, -0.006, 0.001)),
         ),
-        drive: None,
         robot_from_colour: Isometry3::identity(),
+        drive: None,
     }
 }
