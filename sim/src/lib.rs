@@ -4,6 +4,7 @@
 
 pub mod cli;
 pub mod evaluation;
+pub mod kinect;
 pub mod record;
 pub mod report;
 pub mod runner;
