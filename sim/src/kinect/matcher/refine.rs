@@ -19,25 +19,22 @@ pub(super) struct Reference {
     inverse_norm: Vec<f32>,
 }
 
-type Patch = [[i16; COLUMNS]; 2 * RADIUS + 1];
+/// A window's pixels, row after row. In one piece, so that the compiler multiplies and adds eight at a time.
+type Patch = [i16; COLUMNS * (2 * RADIUS + 1)];
 
+#[inline(always)]
 fn patch(image: &Residual, x: usize, y: usize) -> Patch {
-    std::array::from_fn(|row| {
+    let mut patch = [0; _];
+    for (row, pixels) in patch.chunks_exact_mut(COLUMNS).enumerate() {
         let start = (y + row - RADIUS) * image.width + x - COLUMNS / 2;
-        std::array::from_fn(|column| image.values[start + column])
-    })
+        pixels.copy_from_slice(&image.values[start..start + COLUMNS]);
+    }
+    patch
 }
 
 #[inline(always)]
 fn product(a: &Patch, b: &Patch) -> f32 {
-    let mut sums = [0_i32; COLUMNS / 2];
-    for (row_a, row_b) in a.iter().zip(b) {
-        for lane in 0..COLUMNS / 2 {
-            sums[lane] += i32::from(row_a[2 * lane]) * i32::from(row_b[2 * lane])
-                + i32::from(row_a[2 * lane + 1]) * i32::from(row_b[2 * lane + 1]);
-        }
-    }
-    sums.iter().sum::<i32>() as f32
+    a.iter().zip(b).map(|(&a, &b)| i32::from(a) * i32::from(b)).sum::<i32>() as f32
 }
 
 impl Reference {

@@ -13,11 +13,12 @@ const USEFUL: usize = 64 - 2 * RADIUS;
 pub(super) const BAND: usize = 40;
 const WINDOW: usize = 2 * RADIUS + 1;
 
-/// Differing bits of 81 at or above which a candidate is no match. Two random windows of this pattern differ in
-/// 36 ± 5; chosen so that 96 of them seldom yield one, see the tests of the matcher.
-const WORST_MATCH: u32 = 22;
-/// Bits of a match's number of differences.
+/// Bits of a number of differences; a candidate with more than they can count is no match. Unrelated windows of this
+/// pattern differ in 36 ± 5 of 81 bits.
 const COST_PLANES: usize = 5;
+/// By how much the next best candidate, unless it is the best one's neighbour, must be worse for a match to be unique.
+/// Chosen in the tests of the matcher: wrong matches stay below one in a hundred in any noise.
+const MARGIN: u32 = 4;
 const DISPARITY_PLANES: usize = CANDIDATES.ilog2() as usize + 1;
 
 /// An image of single bits: brighter than its surroundings or not.
@@ -36,15 +37,16 @@ impl BitImage {
         let groups = width.div_ceil(GROUP);
         let mut words = Vec::with_capacity(groups * residual.height);
         // Bits of the row, padded so that every word's outer pixels exist.
-        let mut bits = vec![0_u64; (groups * GROUP + 128) / 64 + 1];
+        let mut bits = vec![0_u64; (groups * GROUP).div_ceil(64) + 2];
         for y in 0..residual.height {
-            bits.fill(0);
-            for x in 0..groups * GROUP + 2 * RADIUS {
-                let column = x as isize + left - RADIUS as isize;
-                if column >= 0 && column < residual.width as isize {
-                    let bright = residual.row(y)[column as usize] > 0;
-                    bits[x / 64] |= u64::from(bright) << (x % 64);
-                }
+            let start = left - RADIUS as isize;
+            for (index, bits) in bits.iter_mut().enumerate() {
+                let columns = start + 64 * index as isize..start + 64 * (index as isize + 1);
+                let inside = columns.start.clamp(0, residual.width as isize)..columns.end.clamp(0, residual.width as isize);
+                let offset = (inside.start - columns.start) as usize;
+                let pixels = &residual.row(y)[inside.start as usize..inside.end as usize];
+                let places = pixels.iter().enumerate();
+                *bits = places.fold(0, |bits, (place, &value)| bits | u64::from(value > 0) << (place + offset));
             }
             words.extend((0..groups).map(|group| {
                 Lanes(std::array::from_fn(|lane| {
@@ -95,41 +97,56 @@ impl ReferenceBits {
 pub(super) const NO_MATCH: u8 = u8::MAX;
 
 /// What the search knows of 256 pixels.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Best {
     cost: [Lanes; COST_PLANES],
     disparity: [Lanes; DISPARITY_PLANES],
-    /// Some candidate has matched.
-    any: Lanes,
-    /// Another has, and not beside the first.
-    ambiguous: Lanes,
-    /// The candidate before this one matched.
-    previous: Lanes,
+    /// The next best cost, not counting the best candidate's neighbours.
+    next_cost: [Lanes; COST_PLANES],
+    /// The candidate before this one is the best so far.
+    beside_best: Lanes,
+}
+
+impl Default for Best {
+    fn default() -> Self {
+        let (worst, none) = ([Lanes::all(true); COST_PLANES], Lanes::all(false));
+        Self { cost: worst, disparity: [none; DISPARITY_PLANES], next_cost: worst, beside_best: none }
+    }
 }
 
 impl Best {
-    /// Judges one more candidate. A match is unique when the candidates that match lie side by side.
+    /// Judges one more candidate.
     #[inline(always)]
     fn update(&mut self, candidate: usize, cost: [Lanes; 7]) {
-        let limit = std::array::from_fn(|plane| Lanes::all(WORST_MATCH >> plane & 1 == 1));
-        let matches = less(cost, limit);
-        let starts = matches & !self.previous;
-        self.ambiguous = self.ambiguous | (starts & self.any);
-        let low = std::array::from_fn(|plane| cost[plane]);
-        let better = matches & (less(low, self.cost) | !self.any);
-        self.any = self.any | matches;
-        self.previous = matches;
-        for (plane, bits) in self.cost.iter_mut().zip(low) {
-            *plane = better.choose(bits, *plane);
+        let hopeless = cost[5] | cost[6];
+        let cost = std::array::from_fn(|plane| cost[plane] | hopeless);
+        let better = less(cost, self.cost);
+        let loser = std::array::from_fn(|plane| better.choose(self.cost[plane], cost[plane]));
+        let next = less(loser, self.next_cost) & !self.beside_best;
+        for plane in 0..COST_PLANES {
+            self.next_cost[plane] = next.choose(loser[plane], self.next_cost[plane]);
+            self.cost[plane] = better.choose(cost[plane], self.cost[plane]);
         }
         for (place, plane) in self.disparity.iter_mut().enumerate() {
             *plane = better.choose(Lanes::all(candidate >> place & 1 == 1), *plane);
         }
+        self.beside_best = better;
+    }
+
+    /// Where the best candidate leads the next by [`MARGIN`].
+    fn unique(&self) -> Lanes {
+        let mut carry = Lanes::all(false);
+        let mut needed = [Lanes::all(false); COST_PLANES];
+        for (plane, needed) in needed.iter_mut().enumerate() {
+            (*needed, carry) = add(self.cost[plane], Lanes::all(MARGIN >> plane & 1 == 1), carry);
+        }
+        !carry & !less(self.next_cost, needed)
     }
 
     fn write(&self, out: &mut [u8]) {
+        let unique = self.unique();
         for (lane, pixels) in out.chunks_mut(USEFUL).enumerate() {
-            let unique = self.any.0[lane] & !self.ambiguous.0[lane];
+            let unique = unique.0[lane];
             let planes = self.disparity.map(|plane| plane.0[lane]);
             for (x, pixel) in pixels.iter_mut().enumerate() {
                 let disparity = (0..DISPARITY_PLANES).fold(0, |sum, place| sum | (planes[place] >> x & 1) << place);
