@@ -6,6 +6,7 @@ pub mod cli;
 pub mod evaluation;
 pub mod kinect;
 pub mod record;
+pub mod render;
 pub mod report;
 pub mod runner;
 pub mod textured_room;

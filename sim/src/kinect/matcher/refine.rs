@@ -7,6 +7,9 @@ use super::{NEAREST, RADIUS};
 const COLUMNS: usize = 8;
 /// Normalised correlation below which a match is none. Unrelated windows reach 0.5 by chance once in some thousand.
 const WEAKEST_CORRELATION: f32 = 0.5;
+/// How far a shifted dot's correlation falls below that of unrelated windows, relative to the peak: dots have no
+/// neighbours. Chosen for least bias (measured: 0.03 of a step at most).
+const TROUGH: f32 = 0.25;
 /// How often the found candidate may turn out to be beside the best one.
 const CLIMB: usize = 2;
 
@@ -73,7 +76,16 @@ impl Reference {
         if best < before.max(after) || best < WEAKEST_CORRELATION * strength {
             return None;
         }
-        let curvature = 2.0 * best - before - after;
-        Some(shift as f32 + 0.5 * (after - before) / curvature.max(f32::MIN_POSITIVE))
+        Some(shift as f32 + peak(before, best, after))
     }
+}
+
+/// Where between −1 and 1 three correlations have their peak. The pattern resembles its shifted self as a Gaussian
+/// does that has been lowered by [`TROUGH`]; a parabola through them would draw results to whole pixels, by up to
+/// half a step.
+fn peak(before: f32, best: f32, after: f32) -> f32 {
+    let above_trough = |correlation: f32| (correlation + TROUGH * best).max(f32::EPSILON * best);
+    let (before, best, after) = (above_trough(before), above_trough(best), above_trough(after));
+    let curvature = (best * best / (before * after)).ln();
+    0.5 * (after / before).ln() / curvature.max(f32::EPSILON)
 }

@@ -78,3 +78,25 @@ fn what_the_matcher_does() {
     }
 }
 
+
+#[test]
+fn locking() {
+    let bench = Bench::new();
+    for noise in [0.0, 40.0, 130.0] {
+        let mut line = format!("noise {noise}:");
+        for eighth in 0..5 {
+            let shift = 5.0 + f64::from(eighth) / 8.0;
+            let z = 1.0 / (1.0 / 1.2 + shift / 43.5);
+            let image = bench.infrared(|_, _| z, 400.0, 400.0, noise);
+            let live = Residual::of(image.pixels(), 640, 480);
+            let mut e = Vec::new();
+            for y in 100..140 { for x in 24..616 {
+                if let Some(s) = bench.matcher.reference.refine(&live, x, y, 41) { e.push(f64::from(s) - shift); }
+            } }
+            let mean = e.iter().sum::<f64>() / e.len() as f64;
+            let sd = (e.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / e.len() as f64).sqrt();
+            line += &format!(" {:+.3}±{:.3}", mean * 8.0, sd * 8.0);
+        }
+        println!("{line}");
+    }
+}
