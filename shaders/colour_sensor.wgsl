@@ -21,11 +21,11 @@ struct ColourSensor {
 // R, G, B, 255 from the lowest byte up.
 @group(0) @binding(4) var<storage, read_write> image: array<u32>;
 
+// How many instants of the exposure are averaged: fixed when compiled, as the loop then disappears.
+override TAPS: u32 = 1u;
+
 @compute @workgroup_size(64, 1)
 fn colour_sensor(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= camera.size) {
-        return;
-    }
     let pixel = vec2f(id.xy);
     let direction = direction_of_pixel(camera, pixel);
     let at = gbuffer_pixel(camera, direction) + 0.5;
@@ -34,13 +34,13 @@ fn colour_sensor(@builtin(global_invocation_id) id: vec3u) {
     let centre = textureSampleLevel(luminance, bilinear, at / camera.gbuffer_size, 0.0);
     let motion = image_motion(camera, direction, centre.w);
     var light = vec3f();
-    for (var tap = 0u; tap < camera.taps; tap++) {
-        let seen = at - motion * tap_instant(camera, id.y, tap);
+    for (var tap = 0u; tap < TAPS; tap++) {
+        let seen = at - motion * tap_instant(camera, id.y, tap, TAPS);
         let green = textureSampleLevel(luminance, bilinear, seen / camera.gbuffer_size, 0.0).g;
         let red_blue = textureSampleLevel(luminance, bilinear, (seen + to_quad) / camera.gbuffer_size, 0.0).rb;
         light += vec3f(red_blue.x, green, red_blue.y);
     }
-    let mean = light * (LUX_PER_UNIT / f32(camera.taps)) * vignette(camera, pixel);
+    let mean = light * (LUX_PER_UNIT / f32(TAPS)) * vignette(camera, pixel);
 
     let electrons = mean * sensor.electrons_per_luminance;
     let key = hash(sensor.noise_key + id.y * camera.size.x + id.x);
@@ -48,5 +48,7 @@ fn colour_sensor(@builtin(global_invocation_id) id: vec3u) {
     let draw = vec3f(normal(quad_key), normal(key), normal(hash(quad_key)));
     let noisy = electrons + draw * sqrt(sensor.shot_noise * electrons + sensor.read_variance);
     let level = srgb_from_linear(clamp(noisy * sensor.level_per_electron, vec3f(), vec3f(1.0)));
-    image[id.y * camera.size.x + id.x] = pack4x8unorm(vec4f(level, 1.0));
+    if id.x < camera.size.x {
+        image[id.y * camera.size.x + id.x] = pack4x8unorm(vec4f(level, 1.0));
+    }
 }

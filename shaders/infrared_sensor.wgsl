@@ -58,19 +58,19 @@ fn pattern_light(direction: vec2f) -> f32 {
     return brightness * textureSampleLevel(tile, repeating, place, 0.0).r;
 }
 
+// How many instants of the exposure are averaged: fixed when compiled, as the loop then disappears.
+override TAPS: u32 = 1u;
+
 @compute @workgroup_size(64, 1)
 fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= camera.size) {
-        return;
-    }
     let pixel = vec2f(id.xy);
     let direction = direction_of_pixel(camera, pixel);
     let middle = gbuffer_pixel(camera, direction) + 0.5;
     let centre = textureSampleLevel(radiance, bilinear, middle / camera.gbuffer_size, 0.0);
     let motion = image_motion(camera, direction, centre.w);
     var ambient = 0.0;
-    for (var tap = 0u; tap < camera.taps; tap++) {
-        let seen = middle - motion * tap_instant(camera, id.y, tap);
+    for (var tap = 0u; tap < TAPS; tap++) {
+        let seen = middle - motion * tap_instant(camera, id.y, tap, TAPS);
         ambient += textureSampleLevel(radiance, bilinear, seen / camera.gbuffer_size, 0.0).x;
     }
     // Dots stay where they are while the surface under them passes, and only shift with its depth.
@@ -81,9 +81,11 @@ fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
     let speckle = 1.0 + sensor.speckle_contrast * normal(hash(sensor.speckle_key + index));
     let dots = dot_peak * pattern_light(from_projector) * max(speckle, 0.0);
 
-    let light = (ambient * sensor.bandwidth / f32(camera.taps) + dots) * vignette(camera, pixel);
+    let light = (ambient * sensor.bandwidth / f32(TAPS) + dots) * vignette(camera, pixel);
     let electrons = light * sensor.electrons_per_radiance;
     let noise = normal(hash(sensor.noise_key + index)) * sqrt(sensor.shot_noise * electrons + sensor.read_variance);
     let number = (electrons + noise) * sensor.numbers_per_electron;
-    image[index] = u32(clamp(round(number), 0.0, LARGEST_NUMBER));
+    if id.x < camera.size.x {
+        image[index] = u32(clamp(round(number), 0.0, LARGEST_NUMBER));
+    }
 }

@@ -14,7 +14,7 @@ use super::readback::Readback;
 use super::scene::Scene;
 use super::stage::{Binding, Stage};
 use super::uniforms;
-use super::view::{NEAR, View, clip_from_camera};
+use super::view::{NEAR, TAPS, View, clip_from_camera};
 use super::{CameraFrame, ColourSensor, InfraredSensor};
 use crate::world::World;
 
@@ -111,6 +111,15 @@ pub struct Renderer {
     readback: Readback,
 }
 
+/// What the stages of one frame need to know here: clip-space matrices (from the world) and numbers of instants.
+struct Plan {
+    projector_clip: Mat4,
+    colour_clip: Mat4,
+    infrared_clip: Mat4,
+    colour_taps: usize,
+    infrared_taps: usize,
+}
+
 const STAGES: [&str; 8] = [
     "projector map",
     "colour G-buffer",
@@ -160,10 +169,10 @@ impl Renderer {
     /// # Errors
     /// The adapter stopped working.
     pub fn render(&mut self, frame: &Frame) -> Result<Images, RenderError> {
-        let clips = self.write_uniforms(frame);
+        let plan = self.prepare(frame);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         for stage in 0..STAGES.len() {
-            self.encode(stage, &mut encoder, &clips);
+            self.encode(stage, &mut encoder, &plan);
         }
         self.gpu.queue.submit([encoder.finish()]);
         self.read_images()
@@ -174,12 +183,12 @@ impl Renderer {
     /// # Errors
     /// The adapter stopped working.
     pub fn profile(&mut self, frame: &Frame) -> Result<Vec<StageCost>, RenderError> {
-        let clips = self.write_uniforms(frame);
+        let plan = self.prepare(frame);
         let mut costs = Vec::new();
         for (index, stage) in STAGES.into_iter().enumerate() {
             let (cpu, wall) = (ProcessTime::now(), Instant::now());
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            self.encode(index, &mut encoder, &clips);
+            self.encode(index, &mut encoder, &plan);
             self.gpu.queue.submit([encoder.finish()]);
             if index + 1 == STAGES.len() {
                 self.read_images()?;
@@ -222,8 +231,8 @@ impl Renderer {
         })
     }
 
-    /// Tells the device where everything is; clip-space matrices of the projector, the colour and the infrared camera.
-    fn write_uniforms(&self, frame: &Frame) -> [Mat4; 3] {
+    /// Tells the device where everything is.
+    fn prepare(&self, frame: &Frame) -> Plan {
         let write = |buffer: &wgpu::Buffer, bytes: &[u8]| self.gpu.queue.write_buffer(buffer, 0, bytes);
         let colour = self.colour.view.uniform(&frame.colour);
         let infrared = self.infrared.view.uniform(&frame.infrared);
@@ -237,18 +246,24 @@ impl Renderer {
         write(&self.colour.sensor_uniform, bytemuck::bytes_of(&frame.colour_sensor));
         write(&self.infrared.uniform, bytemuck::bytes_of(&infrared));
         write(&self.infrared.sensor_uniform, bytemuck::bytes_of(&frame.infrared_sensor));
-        [projector, colour.clip_from_world, infrared.clip_from_world]
+        Plan {
+            projector_clip: projector,
+            colour_clip: colour.clip_from_world,
+            infrared_clip: infrared.clip_from_world,
+            colour_taps: self.colour.view.taps(&frame.colour),
+            infrared_taps: self.infrared.view.taps(&frame.infrared),
+        }
     }
 
-    fn encode(&self, stage: usize, encoder: &mut wgpu::CommandEncoder, clips: &[Mat4; 3]) {
+    fn encode(&self, stage: usize, encoder: &mut wgpu::CommandEncoder, plan: &Plan) {
         match stage {
-            0 => self.projector_map.encode(encoder, &self.scene, &clips[0]),
-            1 => self.colour.gbuffer.encode(encoder, &self.scene, &clips[1]),
-            2 => self.infrared.gbuffer.encode(encoder, &self.scene, &clips[2]),
-            3 => self.colour.light.encode(encoder),
-            4 => self.infrared.light.encode(encoder),
-            5 => self.colour.sensor.encode(encoder),
-            6 => self.infrared.sensor.encode(encoder),
+            0 => self.projector_map.encode(encoder, &self.scene, &plan.projector_clip),
+            1 => self.colour.gbuffer.encode(encoder, &self.scene, &plan.colour_clip),
+            2 => self.infrared.gbuffer.encode(encoder, &self.scene, &plan.infrared_clip),
+            3 => self.colour.light.encode(encoder, 0),
+            4 => self.infrared.light.encode(encoder, 0),
+            5 => self.colour.sensor.encode(encoder, plan.colour_taps),
+            6 => self.infrared.sensor.encode(encoder, plan.infrared_taps),
             _ => {
                 let (colour, infrared) = (&self.colour.image, &self.infrared.image);
                 encoder.copy_buffer_to_buffer(colour, 0, self.readback.buffer(), 0, colour.size());
@@ -333,7 +348,7 @@ fn colour_passes(gpu: &Device, optics: &Optics<'_>, scene: &Scene, samplers: &Sa
     ];
     let pixels = [optics.colour.width as u32, optics.colour.height as u32];
     let light = Stage::new(gpu, "colour_light", size, &light);
-    let sensor = Stage::new(gpu, "colour_sensor", pixels, &sensor);
+    let sensor = sensor_stage(gpu, "colour_sensor", pixels, &sensor);
     CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
 }
 
@@ -378,8 +393,14 @@ fn infrared_passes(
     ];
     let pixels = [optics.infrared.width as u32, optics.infrared.height as u32];
     let light = Stage::new(gpu, "infrared_light", size, &light);
-    let sensor = Stage::new(gpu, "infrared_sensor", pixels, &sensor);
+    let sensor = sensor_stage(gpu, "infrared_sensor", pixels, &sensor);
     CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
+}
+
+/// A sensor's shader, compiled for every number of instants that its exposure may be made of.
+fn sensor_stage(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_>]) -> Stage {
+    let variants = TAPS.map(|taps| [("TAPS", f64::from(taps))]);
+    Stage::with_variants(gpu, name, size, bindings, &variants.each_ref().map(|variant| variant.as_slice()))
 }
 
 fn projector_uniform(gpu: &Device, projector: &ProjectorLight<'_>) -> wgpu::Buffer {

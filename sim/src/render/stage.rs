@@ -86,7 +86,8 @@ pub(super) fn bind(
 
 /// A compute shader, bound, and how many pixels it works on.
 pub(super) struct Stage {
-    pipeline: wgpu::ComputePipeline,
+    /// One for each value of the shader's constant.
+    pipelines: Vec<wgpu::ComputePipeline>,
     group: wgpu::BindGroup,
     size: [u32; 2],
 }
@@ -97,26 +98,40 @@ const WORKGROUP: u32 = 64;
 impl Stage {
     /// The shader's entry point is called as its file is.
     pub fn new(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_>]) -> Self {
+        Self::with_variants(gpu, name, size, bindings, &[&[]])
+    }
+
+    /// Compiles the shader once for each set of values of its `override` constants.
+    pub fn with_variants(
+        gpu: &Device,
+        name: &str,
+        size: [u32; 2],
+        bindings: &[Binding<'_>],
+        variants: &[&[(&str, f64)]],
+    ) -> Self {
         let (layout, group) = bind(gpu, wgpu::ShaderStages::COMPUTE, bindings);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(name),
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(name),
-            layout: Some(&layout),
-            module: &shader::module(&gpu.device, name),
-            entry_point: Some(name),
-            compilation_options: Default::default(),
-            cache: None,
-        });
-        Self { pipeline, group, size }
+        let module = shader::module(&gpu.device, name);
+        let pipeline = |constants: &&[(&str, f64)]| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(name),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(name),
+                compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
+                cache: None,
+            })
+        };
+        Self { pipelines: variants.iter().map(pipeline).collect(), group, size }
     }
 
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, variant: usize) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.pipelines[variant]);
         pass.set_bind_group(0, &self.group, &[]);
         pass.dispatch_workgroups(self.size[0].div_ceil(WORKGROUP), self.size[1], 1);
     }

@@ -18,11 +18,10 @@ pub(super) struct Camera {
     pub size: UVec2,
     pub tangential: Vec2,
     pub radial: Vec3,
-    pub taps: u32,
     pub exposure: f32,
     pub readout: f32,
     pub vignetting: f32,
-    pub padding: u32,
+    pub padding: UVec2,
 }
 
 /// `Projector` in `shaders/lib/projector.wgsl`.
@@ -114,7 +113,7 @@ mod tests {
     #[test]
     fn layouts_are_those_of_the_shaders() {
         assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, start_from_camera,
-            end_from_camera, focal, centre, margin, gbuffer_size, size, tangential, radial, taps, exposure, readout,
+            end_from_camera, focal, centre, margin, gbuffer_size, size, tangential, radial, exposure, readout,
             vignetting, padding);
         assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,
             map_focal, map_size, map_near, tile_width, tile_height, padding, tile_brightness);

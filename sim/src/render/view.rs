@@ -1,6 +1,6 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, UVec2, Vec2};
 use sunblind_estimator::camera::CameraModel;
 
 use super::uniforms;
@@ -9,9 +9,10 @@ use super::uniforms;
 pub(super) const NEAR: f32 = 0.05;
 /// Pixels of the G-buffer beyond what a camera at rest sees: how far things may move in during half a frame.
 const MOTION_MARGIN: f64 = 16.0;
-/// Motion in the image, pixels, from one averaged instant to the next; and how many there are at most.
+/// How many instants of an exposure may be averaged: at rest, driving, spinning.
+pub(super) const TAPS: [u32; 3] = [1, 3, 8];
+/// Motion in the image that may pass from one of them to the next, pixels.
 const BLUR_STEP: f64 = 1.5;
-const MOST_TAPS: f64 = 8.0;
 /// Depth at which a camera's translation is judged when choosing the number of instants, metres. A guess.
 const TYPICAL_DEPTH: f64 = 1.0;
 
@@ -112,20 +113,20 @@ impl View {
             size: [model.width as u32, model.height as u32].into(),
             tangential: [lens.p1 as f32, lens.p2 as f32].into(),
             radial: [lens.k1 as f32, lens.k2 as f32, lens.k3 as f32].into(),
-            taps: self.taps(frame),
             exposure: frame.exposure,
             readout: frame.readout,
             vignetting: frame.vignetting,
-            padding: 0,
+            padding: UVec2::ZERO,
         }
     }
 
-    /// How many instants of an exposure have to be averaged for a smooth blur.
-    fn taps(&self, frame: &CameraFrame) -> u32 {
+    /// Which of [`TAPS`] makes a smooth blur.
+    pub fn taps(&self, frame: &CameraFrame) -> usize {
         let (start, end) = (rotation_and_place(&frame.sweep.start), rotation_and_place(&frame.sweep.end));
         let angle = start.0.angle_between(end.0) + start.1.distance(end.1) / TYPICAL_DEPTH;
         let blur = self.model.fx * angle * f64::from(frame.exposure);
-        (blur / BLUR_STEP).ceil().clamp(1.0, MOST_TAPS) as u32
+        let enough = |taps: &u32| blur < BLUR_STEP * f64::from(*taps);
+        TAPS.iter().position(enough).unwrap_or(TAPS.len() - 1)
     }
 }
 

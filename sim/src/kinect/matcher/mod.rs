@@ -13,7 +13,7 @@ use sunblind_estimator::image::{DepthImage, InfraredImage};
 
 use super::calibration::{Calibration, REFERENCE_RAW, STEPS_PER_PIXEL};
 use super::projector::Projector;
-use refine::Reference;
+use refine::{Live, Reference};
 use residual::Residual;
 use search::{BAND, BitImage, NO_MATCH, ReferenceBits};
 
@@ -70,6 +70,7 @@ impl Matcher {
         assert_eq!(infrared.size(), (self.width, self.height), "an infrared image of another camera");
         let live = Residual::of(infrared.pixels(), self.width, self.height);
         let live_bits = BitImage::of(&live, 0, self.width);
+        let live = Live::of(live);
         let mut depth = DepthImage::filled(self.width, self.height, NO_DEPTH);
         let (first, last) = (RADIUS * self.width, (self.height - RADIUS) * self.width);
         let bands = depth.pixels_mut()[first..last].par_chunks_mut(BAND * self.width);
@@ -77,12 +78,9 @@ impl Matcher {
             let top = RADIUS + band * BAND;
             let mut found = vec![NO_MATCH; raw.len()];
             self.bits.search(&live_bits, top, top + raw.len() / self.width, self.width, &mut found);
-            for (index, (raw, candidate)) in raw.iter_mut().zip(found).enumerate() {
-                let (x, y) = (index % self.width, top + index / self.width);
-                let inside = x >= RADIUS && x < self.width - INVALID_BAND;
-                if inside && candidate != NO_MATCH {
-                    *raw = self.reference.refine(&live, x, y, candidate).map_or(NO_DEPTH, raw_of_shift);
-                }
+            for (row, (raw, found)) in raw.chunks_exact_mut(self.width).zip(found.chunks_exact(self.width)).enumerate() {
+                let inside = &found[..self.width - INVALID_BAND + RADIUS];
+                self.reference.refine_row(&live, top + row, inside, |x, shift| raw[x] = raw_of_shift(shift));
             }
         });
         depth
@@ -91,8 +89,9 @@ impl Matcher {
 
 /// Rounds to the device's eighths of a pixel.
 fn raw_of_shift(shift: f32) -> u16 {
-    let raw = REFERENCE_RAW - STEPS_PER_PIXEL * f64::from(shift);
-    raw.round().clamp(0.0, f64::from(NO_DEPTH)) as u16
+    // Converting cuts fractions off.
+    let raw = (REFERENCE_RAW + 0.5) as f32 - STEPS_PER_PIXEL as f32 * shift;
+    raw.clamp(0.0, f32::from(NO_DEPTH)) as u16
 }
 
 #[cfg(test)]
