@@ -7,10 +7,12 @@
 
 pub mod cli;
 pub mod evaluation;
+pub mod kinect;
 pub mod new_folder;
 pub mod physics;
 pub mod random;
 pub mod record;
+pub mod render;
 pub mod report;
 pub mod robot;
 pub mod runner;

@@ -1,0 +1,40 @@
+// G-buffer → radiance at 830 nm, as the pinhole sees it at one instant: the lamps' and the sun's, and what a dot of the
+// projector would add. Where dots are is the sensor's business: they do not move with the scene.
+#import lib/camera
+#import lib/projector
+#import lib/surface
+
+@group(0) @binding(0) var<uniform> camera: Camera;
+@group(0) @binding(1) var places: texture_2d<f32>;
+@group(0) @binding(2) var lights: texture_2d<f32>;
+@group(0) @binding(3) var albedos: texture_2d_array<f32>;
+@group(0) @binding(4) var repeating: sampler;
+@group(0) @binding(5) var<uniform> projector: Projector;
+@group(0) @binding(6) var projector_map: texture_depth_2d;
+@group(0) @binding(7) var nearest: sampler;
+// Ambient in W m⁻² sr⁻¹ nm⁻¹; a dot's peak in W m⁻² sr⁻¹; unused; 1/z in metres⁻¹.
+@group(0) @binding(8) var radiance: texture_storage_2d<rgba16float, write>;
+
+// How much further than the mapped depth a surface may lie and still be lit, share: the map's pixels are coarse.
+const TOLERANCE = 0.01;
+
+@compute @workgroup_size(64, 1)
+fn infrared_light(@builtin(global_invocation_id) id: vec3u) {
+    // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
+    let place = textureLoad(places, id.xy, 0);
+    let light = textureLoad(lights, id.xy, 0);
+    let layer = floor(place.w / LEVELS);
+    let albedo = textureSampleLevel(albedos, repeating, place.xy, u32(layer), place.w - LEVELS * layer).a;
+
+    let inverse_z = place.z;
+    let direction = direction_of_gbuffer_pixel(camera, vec2f(id.xy));
+    let from_projector = direction - vec2f(projector.baseline * inverse_z, 0.0);
+    // A plane across the view at depth z gets peak/z²; this surface as much as it faces the light.
+    let facing = max(-dot(light.xyz, vec3f(from_projector, 1.0)), 0.0);
+    let mapped = textureGather(projector_map, nearest, map_of_direction(projector, from_projector));
+    let own = inverse_z * projector.map_near * (1.0 + TOLERANCE);
+    let lit = dot(select(vec4f(), vec4f(0.25), mapped <= vec4f(own)), vec4f(1.0));
+    let dot_peak = projector.peak_irradiance * inverse_z * inverse_z * facing * lit;
+
+    textureStore(radiance, id.xy, vec4f(vec2f(light.w, dot_peak) * albedo / PI, 0.0, inverse_z));
+}

@@ -1,0 +1,41 @@
+// The dot projector. Its frame is the infrared camera's, moved along x; directions are (x/z, y/z).
+// The same in Rust, for the stored reference image: sim/src/kinect/projector.rs.
+
+struct Projector {
+    // Metres along x.
+    baseline: f32,
+    // Tangents: how far the pattern's middle points towards the camera, and from one grid position to the next.
+    toe_in: f32,
+    pitch: f32,
+    // Of the lens, on r².
+    pincushion: f32,
+    // Of a dot's peak on a facing plane at 1 m, W/m².
+    peak_irradiance: f32,
+    // Of the map of what the projector sees, pixels; and its near plane, metres.
+    map_focal: f32,
+    map_size: vec2f,
+    map_near: f32,
+    // Grid positions of a tile, and samples of its image for each of them.
+    tile_width: f32,
+    tile_height: f32,
+    padding: f32,
+    // Three by three, rows down.
+    tile_brightness: array<vec4f, 3>,
+}
+
+const PINCUSHION_ROUNDS = 5;
+
+// Where a direction falls in the pattern, in tiles: (0, 0) is the pattern's corner, (3, 3) the opposite one.
+fn tile_of_direction(projector: Projector, direction: vec2f) -> vec2f {
+    let aimed = direction + vec2f(projector.toe_in, 0.0);
+    var grid = aimed;
+    for (var round = 0; round < PINCUSHION_ROUNDS; round++) {
+        grid = aimed / (1.0 + projector.pincushion * dot(grid, grid));
+    }
+    return grid / (projector.pitch * vec2f(projector.tile_width, projector.tile_height)) + 1.5;
+}
+
+// Where a direction falls in the map of what the projector sees; 0 to 1.
+fn map_of_direction(projector: Projector, direction: vec2f) -> vec2f {
+    return (direction + vec2f(projector.toe_in, 0.0)) * projector.map_focal / projector.map_size + 0.5;
+}

@@ -1,0 +1,99 @@
+//! Depth from the infrared image alone: every window of it is sought in the stored image of the pattern on the
+//! reference plane. Nothing here knows of light, sun or truth; a window that resembles nothing has no depth.
+//!
+//! A surface nearer than the reference plane shows the pattern further right, by b·f·(1/z − 1/z₀) pixels.
+
+mod lanes;
+mod refine;
+mod residual;
+mod search;
+
+use rayon::prelude::*;
+use sunblind_estimator::image::{DepthImage, InfraredImage};
+
+use super::calibration::{Calibration, REFERENCE_RAW, STEPS_PER_PIXEL};
+use super::projector::Projector;
+use refine::{Live, Reference};
+use residual::Residual;
+use search::{BAND, BitImage, NO_MATCH, ReferenceBits};
+
+/// Raw value of a pixel without depth.
+pub const NO_DEPTH: u16 = 2047;
+
+/// Half the matched window, pixels: 9×9 (ROS `kinect_calibration/technical` says 9×9 or 9×7).
+const RADIUS: usize = 4;
+/// Shifts tried. With 580 px and 75 mm from 0.46 m to infinity; the 64 that are often quoted would end at 0.64 m.
+const CANDIDATES: usize = 96;
+/// The first of them, pixels: a surface at infinity shows the pattern 36.25 px left of the reference.
+const NEAREST: isize = -36;
+/// Columns of the reference beyond the image on each side: the furthest shift and a window.
+const MARGIN: usize = 72;
+/// Brightness of a dot in the stored reference, of 1023; the tiles' middle dots saturate. No matter for matching.
+const REFERENCE_DOT: f32 = 400.0;
+/// Columns at the right that the device leaves without depth (commonly seen in raw frames).
+const INVALID_BAND: usize = 8;
+
+/// The depth engine of one unit.
+pub struct Matcher {
+    bits: ReferenceBits,
+    reference: Reference,
+    width: usize,
+    height: usize,
+}
+
+impl Matcher {
+    /// Stores the reference: what this unit's camera sees of this unit's pattern on the reference plane.
+    pub fn new(calibration: &Calibration, projector: &Projector) -> Self {
+        let camera = &calibration.infrared;
+        let (width, height) = camera.size();
+        let wide = width + 2 * MARGIN;
+        let pixels: Vec<u16> = (0..wide * height)
+            .into_par_iter()
+            .map(|index| {
+                let column = (index % wide) as f64 - MARGIN as f64;
+                let (x, y) = (column - camera.cx, (index / wide) as f64 - camera.cy);
+                let (x, y) = camera.distortion.undistort(x / camera.fx, y / camera.fy);
+                let light = projector.light_seen_at(x, y, calibration.reference_distance);
+                (light * REFERENCE_DOT).min(1023.0) as u16
+            })
+            .collect();
+        let residual = Residual::of(&pixels, wide, height);
+        let bits = ReferenceBits::of(&residual, MARGIN, width);
+        Self { bits, reference: Reference::of(residual, MARGIN), width, height }
+    }
+
+    /// Raw disparity of every pixel, [`NO_DEPTH`] where there is none.
+    ///
+    /// # Panics
+    /// When the image is not of the size this unit's camera has.
+    pub fn depth(&self, infrared: &InfraredImage) -> DepthImage {
+        assert_eq!(infrared.size(), (self.width, self.height), "an infrared image of another camera");
+        let live = Residual::of(infrared.pixels(), self.width, self.height);
+        let live_bits = BitImage::of(&live, 0, self.width);
+        let live = Live::of(live);
+        let mut depth = DepthImage::filled(self.width, self.height, NO_DEPTH);
+        let (first, last) = (RADIUS * self.width, (self.height - RADIUS) * self.width);
+        let bands = depth.pixels_mut()[first..last].par_chunks_mut(BAND * self.width);
+        bands.enumerate().for_each(|(band, raw)| {
+            let top = RADIUS + band * BAND;
+            let mut found = vec![NO_MATCH; raw.len()];
+            self.bits.search(&live_bits, top, top + raw.len() / self.width, self.width, &mut found);
+            for (row, (raw, found)) in raw.chunks_exact_mut(self.width).zip(found.chunks_exact(self.width)).enumerate()
+            {
+                let inside = &found[..self.width - INVALID_BAND + RADIUS];
+                self.reference.refine_row(&live, top + row, inside, |x, shift| raw[x] = raw_of_shift(shift));
+            }
+        });
+        depth
+    }
+}
+
+/// Rounds to the device's eighths of a pixel.
+fn raw_of_shift(shift: f32) -> u16 {
+    // Converting cuts fractions off.
+    let raw = (REFERENCE_RAW + 0.5) as f32 - STEPS_PER_PIXEL as f32 * shift;
+    raw.clamp(0.0, f32::from(NO_DEPTH)) as u16
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,66 @@
+//! What an image has beyond its local mean: the dots, without the light they lie in.
+
+use super::RADIUS;
+
+/// A row-major image of differences from the local mean.
+#[derive(Clone, Debug)]
+pub(super) struct Residual {
+    pub width: usize,
+    pub height: usize,
+    pub values: Vec<i16>,
+}
+
+const WINDOW: usize = 2 * RADIUS + 1;
+const AREA: u32 = (WINDOW * WINDOW) as u32;
+
+impl Residual {
+    /// Each pixel of a 10-bit image less the mean of the window around it. Nearer to the border than the window
+    /// reaches, 0.
+    pub fn of(pixels: &[u16], width: usize, height: usize) -> Self {
+        let mut values = vec![0; width * height];
+        let mut column_sums = vec![0_u16; width];
+        for row in pixels.chunks_exact(width).take(WINDOW - 1) {
+            for (sum, &pixel) in column_sums.iter_mut().zip(row) {
+                *sum += pixel;
+            }
+        }
+        for middle in RADIUS..height - RADIUS {
+            let entering = &pixels[(middle + RADIUS) * width..][..width];
+            for (sum, &pixel) in column_sums.iter_mut().zip(entering) {
+                *sum += pixel;
+            }
+            let inner = width - 2 * RADIUS;
+            let out = &mut values[middle * width + RADIUS..][..inner];
+            let row = &pixels[middle * width + RADIUS..][..inner];
+            for (x, (value, &pixel)) in out.iter_mut().zip(row).enumerate() {
+                let sum: u32 = column_sums[x..x + WINDOW].iter().map(|&sum| u32::from(sum)).sum();
+                *value = pixel as i16 - (sum / AREA) as i16;
+            }
+            let leaving = &pixels[(middle - RADIUS) * width..][..width];
+            for (sum, &pixel) in column_sums.iter_mut().zip(leaving) {
+                *sum -= pixel;
+            }
+        }
+        Self { width, height, values }
+    }
+
+    pub fn row(&self, y: usize) -> &[i16] {
+        &self.values[y * self.width..(y + 1) * self.width]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_light_leaves_nothing_and_a_dot_stands_out() {
+        let mut pixels = vec![500_u16; 30 * 20];
+        assert!(Residual::of(&pixels, 30, 20).values.iter().all(|&value| value == 0));
+        pixels[10 * 30 + 15] += 81;
+        let residual = Residual::of(&pixels, 30, 20);
+        assert_eq!(residual.row(10)[15], 80);
+        assert_eq!(residual.row(7)[12], -1);
+        assert_eq!(residual.row(5)[15], 0);
+    }
+}

@@ -1,0 +1,226 @@
+//! What a Kinect v1 makes of light: a colour image, an infrared image with the projector's dots in it, and depth
+//! computed from that infrared image alone. Knows no truth.
+//!
+//! The device's frame is its infrared camera's: x right, y down, z forward.
+
+pub mod calibration;
+mod exposure;
+pub mod matcher;
+pub mod pattern;
+pub mod projector;
+pub mod sensors;
+
+use glam::{DAffine3, DQuat, DVec3};
+use nalgebra::Isometry3;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use sunblind_estimator::image::{DepthImage, Image, InfraredImage, RgbImage};
+
+use crate::render::{
+    Adapter, CameraFrame, Frame, Images, Optics, ProjectorLight, RenderError, Renderer, StageCost, Sweep,
+};
+use crate::world::World;
+use calibration::Calibration;
+pub use exposure::InfraredExposure;
+use exposure::{AutoExposure, colour_brightness, infrared_brightness};
+use matcher::Matcher;
+use projector::Projector;
+use sensors::{Exposure, colour, infrared};
+
+/// From one frame to the next, seconds.
+pub const FRAME_INTERVAL: f64 = 1.0 / 30.0;
+/// Images taken and thrown away when switched on, until the exposure fits. Enough for any light.
+const SETTLING_IMAGES: usize = 8;
+
+/// Which of the device's imperfections take part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Imaging {
+    /// Photon and read noise of both cameras, and speckle.
+    pub noise: bool,
+    /// What moves during the exposure is blurred.
+    pub motion_blur: bool,
+    /// Rows are exposed one after the other.
+    pub rolling_shutter: bool,
+    /// How the infrared camera follows the light.
+    pub infrared_exposure: InfraredExposure,
+}
+
+impl Default for Imaging {
+    fn default() -> Self {
+        Self { noise: true, motion_blur: true, rolling_shutter: true, infrared_exposure: InfraredExposure::default() }
+    }
+}
+
+/// What the device gives out at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KinectFrame {
+    /// Colour.
+    pub rgb: RgbImage,
+    /// 10 bits.
+    pub infrared: InfraredImage,
+    /// Raw 11-bit disparity in the infrared camera's pixels, 2047 = none; the calibration's
+    /// [`depth_encoding`](Calibration::depth_encoding) says what it means.
+    pub depth_raw: DepthImage,
+}
+
+/// One simulated unit in one world.
+pub struct Kinect {
+    calibration: Calibration,
+    imaging: Imaging,
+    seed: u64,
+    infrared_from_colour: DAffine3,
+    renderer: Renderer,
+    matcher: Matcher,
+    colour_exposure: AutoExposure,
+    infrared_exposure: AutoExposure,
+    /// The exposures fit the light.
+    settled: bool,
+}
+
+impl Kinect {
+    /// Builds the unit and puts it into the world.
+    ///
+    /// # Errors
+    /// No graphics adapter, or a world that it cannot hold.
+    pub fn new(world: &World, calibration: Calibration, imaging: Imaging, seed: u64) -> Result<Self, RenderError> {
+        let projector = Projector::of(&calibration);
+        let optics = Optics {
+            colour: calibration.colour,
+            infrared: calibration.infrared,
+            projector: projector_light(&calibration, &projector),
+        };
+        let renderer = Renderer::new(world, &optics)?;
+        Ok(Self {
+            matcher: Matcher::new(&calibration, &projector),
+            infrared_from_colour: affine(&calibration.colour_from_infrared.inverse()),
+            calibration,
+            imaging,
+            seed,
+            renderer,
+            colour_exposure: AutoExposure::colour(),
+            infrared_exposure: AutoExposure::infrared(imaging.infrared_exposure),
+            settled: false,
+        })
+    }
+
+    /// How this unit is really built.
+    pub fn calibration(&self) -> &Calibration {
+        &self.calibration
+    }
+
+    /// What renders.
+    pub fn adapter(&self) -> &Adapter {
+        self.renderer.adapter()
+    }
+
+    /// The exposures of the next frame: colour, infrared.
+    pub fn exposures(&self) -> [Exposure; 2] {
+        [self.colour_exposure.exposure(), self.infrared_exposure.exposure()]
+    }
+
+    /// Takes one frame. `world_from_infrared`: the device's pose over the frame interval, in whose middle the exposures
+    /// have theirs. Equal sequences of calls give equal bytes.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    pub fn capture(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<KinectFrame, RenderError> {
+        while !self.settled {
+            self.settle(world_from_infrared)?;
+        }
+        let images = self.renderer.render(&self.frame(world_from_infrared, frame))?;
+        self.follow_light(&images, FRAME_INTERVAL);
+        let (colour, infrared) = (&self.calibration.colour, &self.calibration.infrared);
+        let infrared = image(infrared.size(), images.infrared);
+        Ok(KinectFrame { rgb: image(colour.size(), images.colour), depth_raw: self.matcher.depth(&infrared), infrared })
+    }
+
+    /// True depth (z, metres) of each of the last frame's infrared pixels. For judging, never for the estimator.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    pub fn true_depth(&self) -> Result<Image<f32>, RenderError> {
+        Ok(image(self.calibration.infrared.size(), self.renderer.true_depth()?))
+    }
+
+    /// What the stages of rendering one frame take; the frame itself is thrown away.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    pub fn profile(&mut self, world_from_infrared: &Sweep) -> Result<Vec<StageCost>, RenderError> {
+        self.renderer.profile(&self.frame(world_from_infrared, 0))
+    }
+
+    /// Lets the exposures adapt as they do in the first second after switching on.
+    fn settle(&mut self, world_from_infrared: &Sweep) -> Result<(), RenderError> {
+        for _ in 0..SETTLING_IMAGES {
+            let images = self.renderer.render(&self.frame(world_from_infrared, 0))?;
+            self.follow_light(&images, f64::INFINITY);
+        }
+        self.settled = true;
+        Ok(())
+    }
+
+    fn follow_light(&mut self, images: &Images, elapsed: f64) {
+        self.colour_exposure.follow(colour_brightness(&images.colour), elapsed);
+        self.infrared_exposure.follow(infrared_brightness(&images.infrared), elapsed);
+    }
+
+    fn frame(&self, world_from_infrared: &Sweep, frame: u64) -> Frame {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        random.set_stream(frame);
+        let [colour_exposure, infrared_exposure] = self.exposures();
+        let noise = self.imaging.noise;
+        let speckle_key = pose_key(&world_from_infrared.middle());
+        let world_from_colour = world_from_infrared.of_other(&self.infrared_from_colour);
+        Frame {
+            colour: self.camera(world_from_colour, colour_exposure, colour::READOUT, colour::VIGNETTING),
+            colour_sensor: colour::sensor(colour_exposure, noise, random.next_u32()),
+            infrared: self.camera(*world_from_infrared, infrared_exposure, infrared::READOUT, infrared::VIGNETTING),
+            infrared_sensor: infrared::sensor(infrared_exposure, noise, random.next_u32(), speckle_key),
+        }
+    }
+
+    fn camera(&self, sweep: Sweep, exposure: Exposure, readout: f64, vignetting: f32) -> CameraFrame {
+        let share = |on: bool, seconds: f64| if on { (seconds / FRAME_INTERVAL) as f32 } else { 0.0 };
+        CameraFrame {
+            sweep,
+            exposure: share(self.imaging.motion_blur, exposure.time),
+            readout: share(self.imaging.rolling_shutter, readout),
+            vignetting,
+        }
+    }
+}
+
+fn projector_light<'a>(calibration: &Calibration, projector: &'a Projector) -> ProjectorLight<'a> {
+    ProjectorLight {
+        baseline: calibration.baseline as f32,
+        toe_in: projector.toe_in as f32,
+        pitch: projector::PITCH as f32,
+        pincushion: projector::PINCUSHION as f32,
+        peak_irradiance: projector::PEAK_IRRADIANCE_AT_1_M as f32,
+        tile_grid: [pattern::TILE_WIDTH, pattern::TILE_HEIGHT],
+        tile_brightness: projector::TILE_BRIGHTNESS,
+        tile_image: ([projector.tile.width, projector.tile.height], &projector.tile.samples),
+    }
+}
+
+fn image<P>((width, height): (usize, usize), pixels: Vec<P>) -> Image<P> {
+    Image::from_pixels(width, height, pixels).expect("the renderer makes images of the camera's size")
+}
+
+/// nalgebra, the estimator's mathematics, to glam, the simulation's.
+fn affine(isometry: &Isometry3<f64>) -> DAffine3 {
+    let rotation = isometry.rotation.coords;
+    let translation = isometry.translation.vector;
+    DAffine3::from_rotation_translation(
+        DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
+        DVec3::new(translation.x, translation.y, translation.z),
+    )
+}
+
+/// A number that changes with the least motion.
+fn pose_key(pose: &DAffine3) -> u32 {
+    let bits = pose.to_cols_array().map(f64::to_bits);
+    let mixed = bits.iter().fold(0_u64, |key, bits| (key ^ bits).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29));
+    (mixed >> 32) as u32
+}

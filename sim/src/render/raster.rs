@@ -1,0 +1,182 @@
+//! Passes that turn triangles into pixels: a camera's G-buffer, and the projector's map of depth.
+
+use glam::Mat4;
+
+use super::device::Device;
+use super::scene::Scene;
+use super::shader;
+use super::stage::{Binding, bind};
+
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// u, v, 1/z and the material need full floats; light does not.
+const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+const LIGHTS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// How much further away a lit surface may lie than the projector's map says, in slopes of the map's pixels.
+const SLOPE_BIAS: f32 = -2.0;
+
+/// Something drawn into.
+pub(super) struct Target {
+    pub texture: wgpu::Texture,
+    pub view: wgpu::TextureView,
+}
+
+impl Target {
+    pub fn new(gpu: &Device, size: [u32; 2], format: wgpu::TextureFormat, usage: wgpu::TextureUsages) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: usage | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self { texture, view }
+    }
+}
+
+/// A uniform that a shader reads and every frame sets.
+pub(super) fn uniform_buffer(gpu: &Device, size: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: size as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// What a camera sees, before light.
+pub(super) struct GBuffer {
+    pub places: Target,
+    pub lights: Target,
+    depth: Target,
+    pipeline: wgpu::RenderPipeline,
+    group: wgpu::BindGroup,
+}
+
+impl GBuffer {
+    /// `vertex`: which of the shader's two variants.
+    pub fn new(gpu: &Device, size: [u32; 2], camera: &wgpu::Buffer, vertex: &str) -> Self {
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let (layout, group) = bind(gpu, wgpu::ShaderStages::VERTEX, &[Binding::Uniform(camera)]);
+        let shader = shader::module(&gpu.device, "gbuffer");
+        let targets = [PLACES, LIGHTS].map(|format| Some(format.into()));
+        let fragment = wgpu::FragmentState {
+            module: &shader,
+            entry_point: Some("surface"),
+            compilation_options: Default::default(),
+            targets: &targets,
+        };
+        Self {
+            places: Target::new(gpu, size, PLACES, attachment | wgpu::TextureUsages::COPY_SRC),
+            lights: Target::new(gpu, size, LIGHTS, attachment),
+            depth: Target::new(gpu, size, DEPTH, attachment),
+            pipeline: pipeline(gpu, &layout, &shader, vertex, Some(fragment), wgpu::DepthBiasState::default()),
+            group,
+        }
+    }
+
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, scene: &Scene, clip_from_world: &Mat4) {
+        let attachments = [&self.places, &self.lights].map(|target| {
+            Some(wgpu::RenderPassColorAttachment {
+                view: &target.view,
+                depth_slice: None,
+                resolve_target: None,
+                // 1/z = 0: nothing there.
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        });
+        draw(encoder, &attachments, &self.depth, &self.pipeline, &self.group, scene, clip_from_world);
+    }
+}
+
+/// What the projector's light reaches: near/z.
+pub(super) struct ProjectorMap {
+    pub depth: Target,
+    pipeline: wgpu::RenderPipeline,
+    group: wgpu::BindGroup,
+}
+
+impl ProjectorMap {
+    pub fn new(gpu: &Device, size: [u32; 2], clip_from_world: &wgpu::Buffer) -> Self {
+        let (layout, group) = bind(gpu, wgpu::ShaderStages::VERTEX, &[Binding::Uniform(clip_from_world)]);
+        let shader = shader::module(&gpu.device, "projector_map");
+        let bias = wgpu::DepthBiasState { constant: 0, slope_scale: SLOPE_BIAS, clamp: 0.0 };
+        Self {
+            depth: Target::new(gpu, size, DEPTH, wgpu::TextureUsages::RENDER_ATTACHMENT),
+            pipeline: pipeline(gpu, &layout, &shader, "projector_vertex", None, bias),
+            group,
+        }
+    }
+
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, scene: &Scene, clip_from_world: &Mat4) {
+        draw(encoder, &[], &self.depth, &self.pipeline, &self.group, scene, clip_from_world);
+    }
+}
+
+fn pipeline(
+    gpu: &Device,
+    layout: &wgpu::BindGroupLayout,
+    shader: &wgpu::ShaderModule,
+    vertex: &str,
+    fragment: Option<wgpu::FragmentState<'_>>,
+    bias: wgpu::DepthBiasState,
+) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(vertex),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    let buffers = Scene::vertex_buffers();
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(vertex),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: shader,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            // A depth map needs positions alone.
+            buffers: if fragment.is_some() { &buffers } else { &buffers[..1] },
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: Some(wgpu::Face::Back), ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias,
+        }),
+        multisample: Default::default(),
+        fragment,
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn draw(
+    encoder: &mut wgpu::CommandEncoder,
+    color_attachments: &[Option<wgpu::RenderPassColorAttachment<'_>>],
+    depth: &Target,
+    pipeline: &wgpu::RenderPipeline,
+    group: &wgpu::BindGroup,
+    scene: &Scene,
+    clip_from_world: &Mat4,
+) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments,
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &depth.view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    });
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, group, &[]);
+    scene.draw(&mut pass, clip_from_world);
+}
