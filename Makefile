@@ -9,6 +9,7 @@ help: ## what there is
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /\1\t/' | expand -t 10
 
 build: ## the sunblind command
+	@.ci/setup
 	cargo build --release --workspace
 
 demo: build ## records a room with known truth, replays it, ends with a report

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut kinect = Kinect::new(&world, Calibration::nominal(), Imaging::default(), 1)?;
     println!("{:?}", kinect.adapter());
     let mut sweep = Sweep::still(looking_north());
-    sweep.end = sweep.end * glam::DAffine3::from_rotation_y(0.0);
+    sweep.end *= glam::DAffine3::from_rotation_y(0.0);
     let frame = kinect.capture(&sweep, 0)?;
     println!("{:?}", kinect.exposures());
     let (width, height) = (frame.rgb.width() as u32, frame.rgb.height() as u32);

@@ -75,6 +75,7 @@ impl Reference {
             if run[0] != NO_MATCH {
                 let shift = NEAREST + isize::from(run[0]);
                 self.sum_run(live, x, y, shift, run.len(), &mut sums);
+                #[allow(clippy::needless_range_loop, reason = "one index walks several slices")]
                 for at in 0..run.len() {
                     let around = [0, 1, 2].map(|place| {
                         let reference = (x + at + self.margin).wrapping_add_signed(1 - shift - place as isize);
