@@ -6,6 +6,8 @@ use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::fusion::Drive;
+
 /// Radial (k) and tangential (p) coefficients of Brown–Conrady, in OpenCV's order k1 k2 p1 p2 k3; no unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Distortion {
@@ -162,6 +164,8 @@ pub struct Rig {
     /// Points in the colour camera's frame → the robot's (x forward, y left, z up).
     /// For a hand-held camera the "robot" is whatever body the poses are wanted of.
     pub robot_from_colour: Isometry3<f64>,
+    /// The driven wheels; `None` for a camera without any.
+    pub drive: Option<Drive>,
 }
 
 impl Rig {
@@ -186,6 +190,7 @@ impl Rig {
             },
             colour_from_depth: Isometry3::identity(),
             robot_from_colour: Isometry3::identity(),
+            drive: None,
         }
     }
 
@@ -215,11 +220,19 @@ impl Rig {
                 return Err(RigError::Transform { name });
             }
         }
+        if let Some(Drive { ticks_per_metre, effective_track }) = self.drive {
+            for (name, value) in [("ticks_per_metre", ticks_per_metre), ("effective_track_m", effective_track)] {
+                // Far beyond any robot, and far within what arithmetic bears.
+                if !(1e-6..1e12).contains(&value) {
+                    return Err(RigError::Drive { name, value });
+                }
+            }
+        }
         Ok(())
     }
 }
 
-/// A calibration that describes no camera.
+/// A calibration that describes no robot.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RigError {
     /// Focal length missing, zero, negative or not a number.
@@ -257,6 +270,14 @@ pub enum RigError {
         depth: (usize, usize),
         /// Colour (width, height).
         colour: (usize, usize),
+    },
+    /// Wheels that can't roll.
+    #[error("drive: {name} is {value}; it is a positive number (a P3-AT has 138000 counts a metre, 0.588 m of track)")]
+    Drive {
+        /// Which of the two.
+        name: &'static str,
+        /// The value found.
+        value: f64,
     },
     /// NaN, or a rotation that is none.
     #[error("{name}: not a rigid transform (finite translation, unit quaternion)")]

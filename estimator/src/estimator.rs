@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix6};
+use serde::{Deserialize, Serialize};
 
 use crate::camera::Rig;
+use crate::fusion::{Fusion, UncertainPose, VisualPose};
 use crate::geometry::adjoint;
 use crate::image::{DepthImage, RgbImage};
 use crate::measurement::{
@@ -32,6 +34,33 @@ pub enum Stage {
 /// Called when a stage begins; the estimator itself has no clock.
 pub type StageObserver = Box<dyn FnMut(Stage) + Send>;
 
+/// Whose pose an estimate is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PoseSource {
+    /// Wheels, and a gyro where there is one.
+    Odometry,
+    /// Visual odometry.
+    Mvo,
+    /// Both in the extended Kalman filter.
+    Ekf,
+    /// Both in the smooth variable structure filter.
+    #[default]
+    Svsf,
+}
+
+impl PoseSource {
+    /// As in parameters and files: `svsf`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Odometry => "odometry",
+            Self::Mvo => "mvo",
+            Self::Ekf => "ekf",
+            Self::Svsf => "svsf",
+        }
+    }
+}
+
 /// Colour and depth further apart than this are not of one frame: half a period at 30 Hz, rounded up. Seconds.
 const MAX_PAIR_GAP: f64 = 0.02;
 
@@ -40,14 +69,18 @@ enum Odometry {
     FrameToFrame(Box<FrameToFrame>),
 }
 
-/// Multispectral visual odometry (paper A).
+/// Multispectral visual odometry, fused with the wheels where the rig has some (paper A).
 pub struct Estimator {
     rig: Rig,
     frames: FrameBuilder,
     odometry: Odometry,
     rgb: Option<(Timestamp, Arc<RgbImage>)>,
     depth: Option<(Timestamp, Arc<DepthImage>)>,
-    estimate: Estimate,
+    /// Visual odometry's own.
+    visual: Estimate,
+    /// With wheels only.
+    fusion: Option<Fusion>,
+    pose_from: PoseSource,
     last_frame: Option<FrameReport>,
     observer: StageObserver,
 }
@@ -66,10 +99,12 @@ impl Estimator {
                 Variant::Keyframes => Odometry::Keyframes(Box::new(Keyframes::new(&params))),
                 Variant::Paper => Odometry::FrameToFrame(Box::new(FrameToFrame::new(&params))),
             },
+            fusion: rig.drive.map(|drive| Fusion::new(params.fusion, drive)),
+            pose_from: params.pose_from,
             rig,
             rgb: None,
             depth: None,
-            estimate: Estimate {
+            visual: Estimate {
                 time: None,
                 odom_from_robot: Isometry3::identity(),
                 covariance: Matrix6::zeros(),
@@ -110,7 +145,7 @@ impl Estimator {
         let (Some((rgb_time, rgb)), Some((depth_time, depth))) = (&self.rgb, &self.depth) else {
             return Disposition::Used;
         };
-        if rgb_time.since(*depth_time).abs() > MAX_PAIR_GAP || self.estimate.time >= Some(*rgb_time) {
+        if rgb_time.since(*depth_time).abs() > MAX_PAIR_GAP || self.visual.time >= Some(*rgb_time) {
             return Disposition::Used;
         }
         let time = *rgb_time;
@@ -134,14 +169,63 @@ impl Estimator {
         });
         let robot_from_camera = self.rig.robot_from_colour;
         let carry = adjoint(&robot_from_camera);
-        self.estimate = Estimate {
+        self.visual = Estimate {
             time: Some(time),
             odom_from_robot: robot_from_camera * pose.start_from_camera * robot_from_camera.inverse(),
             covariance: carry * pose.covariance * carry.transpose(),
             mode: Mode::Indoor,
             health: failure.map_or(Health::Good, Health::Lost),
         };
+        if let Some(fusion) = &mut self.fusion {
+            let Estimate { odom_from_robot, covariance, .. } = self.visual;
+            let tracked = failure.is_none();
+            // One that comes too late for the filters is still visual odometry's.
+            let _ = fusion.handle_visual(VisualPose {
+                time,
+                start_from_robot: odom_from_robot,
+                covariance,
+                tracked,
+                keyframe,
+            });
+        }
         failure.map_or(Disposition::Used, |failure| Disposition::Rejected(Rejection::NoMotion(failure)))
+    }
+
+    /// The four poses, those of a robot without wheels being one. Each starts at the identity: visual odometry's where
+    /// the first image was taken, the others' at the first reading of either kind.
+    pub fn estimates(&self) -> Vec<(PoseSource, Estimate)> {
+        let sources = match self.fusion {
+            Some(_) => &[PoseSource::Odometry, PoseSource::Mvo, PoseSource::Ekf, PoseSource::Svsf][..],
+            None => &[PoseSource::Mvo],
+        };
+        sources.iter().map(|&source| (source, self.estimate_from(source))).collect()
+    }
+
+    fn estimate_from(&self, source: PoseSource) -> Estimate {
+        match (&self.fusion, source) {
+            (None, _) | (_, PoseSource::Mvo) => self.visual.clone(),
+            (Some(fusion), PoseSource::Odometry) => {
+                self.on_plane(fusion.wheels_read_at(), fusion.odometry(), Mode::Odometer)
+            }
+            (Some(fusion), PoseSource::Ekf) => self.on_plane(fusion.time(), fusion.ekf(), self.fused_mode()),
+            (Some(fusion), PoseSource::Svsf) => self.on_plane(fusion.time(), fusion.svsf(), self.fused_mode()),
+        }
+    }
+
+    /// "When visual information is not available, the WO localization system will be used" (paper A, §1).
+    fn fused_mode(&self) -> Mode {
+        if self.visual.health == Health::Good { self.visual.mode } else { Mode::Odometer }
+    }
+
+    fn on_plane(&self, time: Option<Timestamp>, pose: UncertainPose, mode: Mode) -> Estimate {
+        let wheels_speak = self.fusion.as_ref().is_some_and(Fusion::wheels_speak);
+        Estimate {
+            time,
+            odom_from_robot: pose.pose.to_isometry(),
+            covariance: pose.covariance_in_space(),
+            mode,
+            health: if wheels_speak { Health::Good } else { self.visual.health },
+        }
     }
 }
 
@@ -165,15 +249,30 @@ impl Localizer for Estimator {
                 self.depth = Some((time, image));
                 self.localise()
             }
+            MeasurementData::WheelTicks { left, right } => {
+                disposition(self.fusion.as_mut().map(|fusion| fusion.handle_ticks(time, left, right)))
+            }
+            MeasurementData::Gyro(rate) => {
+                disposition(self.fusion.as_mut().map(|fusion| fusion.handle_gyro(time, rate.z)))
+            }
             _ => Disposition::Rejected(Rejection::Unsupported),
         }
     }
 
     fn estimate(&self) -> Estimate {
-        self.estimate.clone()
+        self.estimate_from(self.pose_from)
     }
 
     fn wanted_streams(&self) -> Streams {
         Streams { rgb: true, infrared: false, depth: true }
+    }
+}
+
+/// What became of a reading for which there may be no use.
+fn disposition(taken: Option<Result<(), Rejection>>) -> Disposition {
+    match taken {
+        Some(Ok(())) => Disposition::Used,
+        Some(Err(rejection)) => Disposition::Rejected(rejection),
+        None => Disposition::Rejected(Rejection::Unsupported),
     }
 }

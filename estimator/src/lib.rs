@@ -3,12 +3,14 @@
 //! [`Localizer::handle`], estimates come out of [`Localizer::estimate`]; equal inputs give equal bytes.
 //!
 //! Rooms, bottom to top: [`time`], [`geometry`], [`image`], [`camera`], [`features`], [`structure`], [`motion`],
-//! [`measurement`] (the seam), [`odometry`], [`estimator`].
+//! [`measurement`] (the seam), [`odometry`], [`fusion`], [`guidance`], [`estimator`].
 
 pub mod camera;
 pub mod estimator;
 pub mod features;
+pub mod fusion;
 pub mod geometry;
+pub mod guidance;
 pub mod image;
 pub mod measurement;
 pub mod motion;
@@ -18,7 +20,7 @@ pub mod structure;
 pub mod time;
 
 pub use camera::Rig;
-pub use estimator::{Estimator, Stage};
+pub use estimator::{Estimator, PoseSource, Stage};
 pub use measurement::{
     Disposition, Estimate, Health, Localizer, Measurement, MeasurementData, Mode, Rejection, Streams,
 };

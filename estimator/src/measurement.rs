@@ -68,6 +68,18 @@ pub enum Rejection {
         /// The image's.
         found: (usize, usize),
     },
+    /// A wheel that rolled faster than the robot can drive: its encoder was reset, or lies.
+    ImpossibleSpeed {
+        /// m/s.
+        speed: f64,
+    },
+    /// A turn rate that no ground robot has, or none at all.
+    ImpossibleRate {
+        /// rad/s.
+        rate: f64,
+    },
+    /// A pose that no robot has, or numbers that are none.
+    ImpossiblePose,
     /// Taken in, but no motion could be had from it.
     NoMotion(MotionFailure),
 }
@@ -102,16 +114,16 @@ pub enum Mode {
 pub enum Health {
     /// Nothing seen yet.
     Initialising,
-    /// Tracking.
+    /// Tracking; in [`Mode::Odometer`] by the wheels.
     Good,
-    /// The last frame gave no motion; the pose is the last good one, its covariance has grown.
+    /// The last frame gave no motion, and no wheels step in; the pose is the last good one, its covariance has grown.
     Lost(MotionFailure),
 }
 
 /// Where the robot believes it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// The instant that the pose is of; `None` before the first frame.
+    /// The instant that the pose is of; `None` before the first frame or wheel reading.
     pub time: Option<Timestamp>,
     /// Pose in the frame where the robot started. Metres.
     pub odom_from_robot: Isometry3<f64>,

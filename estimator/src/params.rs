@@ -3,8 +3,10 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::estimator::PoseSource;
 use crate::features::matching::MatchParams;
 use crate::features::surf::SurfParams;
+use crate::fusion::{FusionParams, GyroParams, WheelOdometryParams};
 use crate::motion::{PaperMotionParams, RansacParams, RefineParams};
 use crate::odometry::KeyframeParams;
 use crate::structure::{DepthNoise, MAX_WINDOW};
@@ -15,6 +17,8 @@ use crate::structure::{DepthNoise, MAX_WINDOW};
 pub struct EstimatorParams {
     /// Which visual odometry.
     pub variant: Variant,
+    /// Which of the four poses is the estimate on a robot with wheels; without wheels it is `mvo`.
+    pub pose_from: PoseSource,
     /// Detector.
     pub surf: SurfParams,
     /// Matching of descriptors.
@@ -29,6 +33,8 @@ pub struct EstimatorParams {
     pub keyframes: KeyframeParams,
     /// Reject and refit (variant `paper`).
     pub paper: PaperMotionParams,
+    /// Wheels and visual odometry together.
+    pub fusion: FusionParams,
 }
 
 impl EstimatorParams {
@@ -68,7 +74,46 @@ impl EstimatorParams {
             positive("paper.max_distance_m", self.paper.max_distance),
             at_least_one("paper.max_iterations", self.paper.max_iterations),
         ];
-        match checks.into_iter().find(|(.., holds, _)| !holds) {
+        let FusionParams { max_delay, max_wait, wheels, gyro, svsf, gate, .. } = self.fusion;
+        let WheelOdometryParams {
+            distance_per_metre,
+            shift_per_radian,
+            side_per_metre,
+            turn_per_metre,
+            turn_per_radian,
+            position_per_second,
+            turn_per_second,
+            max_speed,
+            silent_speed,
+            silent_turn,
+        } = wheels;
+        let GyroParams { noise, bias, bias_walk, rest, max_bias, max_gap } = gyro;
+        // Up to far beyond any robot, so that no square of them runs over.
+        let sigma = |key, value: f64| (key, value, (0.0..1e6).contains(&value), "zero or a positive number");
+        let fusion = [
+            positive("fusion.max_delay_s", max_delay),
+            positive("fusion.max_wait_s", max_wait),
+            sigma("fusion.wheels.distance_noise_m_per_sqrt_m", distance_per_metre),
+            sigma("fusion.wheels.shift_noise_m_per_sqrt_rad", shift_per_radian),
+            sigma("fusion.wheels.side_noise_m_per_sqrt_m", side_per_metre),
+            sigma("fusion.wheels.turn_noise_rad_per_sqrt_m", turn_per_metre),
+            sigma("fusion.wheels.turn_noise_rad_per_sqrt_rad", turn_per_radian),
+            sigma("fusion.wheels.position_noise_m_per_sqrt_s", position_per_second),
+            sigma("fusion.wheels.turn_noise_rad_per_sqrt_s", turn_per_second),
+            positive("fusion.wheels.max_speed_m_per_s", max_speed),
+            sigma("fusion.wheels.silent_speed_m_per_s", silent_speed),
+            sigma("fusion.wheels.silent_turn_rad_per_s", silent_turn),
+            positive("fusion.gyro.noise_rad_per_sqrt_s", noise),
+            sigma("fusion.gyro.bias_rad_per_s", bias),
+            sigma("fusion.gyro.bias_walk_rad_per_s_per_sqrt_s", bias_walk),
+            sigma("fusion.gyro.rest_s", rest),
+            sigma("fusion.gyro.max_bias_rad_per_s", max_bias),
+            positive("fusion.gyro.max_gap_s", max_gap),
+            share("fusion.svsf.gamma", svsf.gamma),
+            sigma("fusion.svsf.layer_sigma", svsf.layer_sigma),
+            positive("fusion.gate.limit", gate.limit),
+        ];
+        match checks.into_iter().chain(fusion).find(|(.., holds, _)| !holds) {
             Some((key, value, _, wanted)) => Err(ParamError::OutOfRange { key, value, wanted }),
             None => Ok(()),
         }

@@ -50,6 +50,6 @@ impl FrameToFrame {
                 covariance: self.pose.covariance + carry * motion.covariance * carry.transpose(),
             };
         }
-        Tracking { pose: self.pose.clone(), keyframe: motion.is_ok(), failure: motion.err(), tracks }
+        Tracking { pose: self.pose.clone(), keyframe: true, failure: motion.err(), tracks }
     }
 }

@@ -131,6 +131,7 @@ fn parse(text: &str) -> Result<Calibration, Fault> {
         },
         colour_from_depth,
         robot_from_colour,
+        drive: None,
     };
     // What is left to find concerns both cameras: registered depth of another size than colour.
     rig.validate().map_err(|error| fault(file.registered.span(), format!("{error}; write registered = false")))?;

@@ -1,0 +1,76 @@
+//! Whether a measurement is believable to a filter, and what if none is any more.
+
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the gate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GateParams {
+    /// Whether there is one.
+    pub enabled: bool,
+    /// Largest squared Mahalanobis distance of an innovation; χ² of 99 % is 11.34 for a pose, 9.21 for range and
+    /// bearing.
+    pub limit: f64,
+    /// After so many refusals in a row it is the filter that is taken to be wrong: the next measurement is let in, and
+    /// the filter's covariance is raised until it fits. Without this a gate locks a lost filter out for good.
+    pub max_refusals: usize,
+}
+
+impl Default for GateParams {
+    /// Off: on the P3-AT it is the wheels that slip, and a gate would keep out what notices it. The limit is for poses.
+    fn default() -> Self {
+        Self { enabled: false, limit: 11.34, max_refusals: 5 }
+    }
+}
+
+/// What becomes of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    Admit,
+    Refuse,
+    /// Admit, the filter's covariance times this, above 1.
+    AdmitDoubting(f64),
+}
+
+/// A gate with a way back.
+#[derive(Clone, Debug)]
+pub(super) struct Gate {
+    params: GateParams,
+    refusals: usize,
+}
+
+impl Gate {
+    pub fn new(params: GateParams) -> Self {
+        Self { params, refusals: 0 }
+    }
+
+    /// Judges an innovation by its squared Mahalanobis distance.
+    pub fn judge(&mut self, squared: f64) -> Verdict {
+        if !self.params.enabled || squared <= self.params.limit {
+            self.refusals = 0;
+            return Verdict::Admit;
+        }
+        if self.refusals < self.params.max_refusals {
+            self.refusals += 1;
+            return Verdict::Refuse;
+        }
+        self.refusals = 0;
+        // Scaled by the distance's excess, a covariance that makes up most of the innovation's just fits.
+        Verdict::AdmitDoubting(squared / self.params.limit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gate_keeps_out_and_lets_back_in() {
+        let mut gate = Gate::new(GateParams { enabled: true, limit: 9.0, max_refusals: 2 });
+        let verdicts = [4.0, 20.0, 5.0, 20.0, 30.0, 18.0, 20.0].map(|squared| gate.judge(squared));
+        use Verdict::{Admit, AdmitDoubting, Refuse};
+        assert_eq!(verdicts, [Admit, Refuse, Admit, Refuse, Refuse, AdmitDoubting(2.0), Refuse]);
+        let mut open = Gate::new(GateParams::default());
+        assert_eq!(open.judge(1e9), Admit);
+    }
+}

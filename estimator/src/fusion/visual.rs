@@ -1,0 +1,87 @@
+//! What the filters take from visual odometry: the motion since its keyframe, brought down to the plane.
+
+use nalgebra::{Isometry3, Matrix3, Matrix6};
+
+use super::planar::UncertainPose;
+use crate::geometry::adjoint;
+use crate::time::Timestamp;
+
+/// The least σ of a visual motion, metres and radians: below it depth errors that all frames share are larger than any
+/// noise. A guess, a tenth of a Kinect's step at 1 m.
+const LEAST_SIGMA: f64 = 3e-4;
+
+/// No number of a pose or its covariance is larger, metres and radians: the earth is 4e7 m round.
+const LARGEST: f64 = 1e8;
+
+/// One frame's pose as visual odometry has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VisualPose {
+    /// When the frame was captured.
+    pub time: Timestamp,
+    /// The robot in the frame where it was at the first image.
+    pub start_from_robot: Isometry3<f64>,
+    /// Covariance of a left perturbation (ρ, φ), in the start frame; contains the keyframe's own.
+    pub covariance: Matrix6<f64>,
+    /// Whether the frame's motion was found; otherwise the pose is an old one.
+    pub tracked: bool,
+    /// Whether the frames after this one are measured against it.
+    pub keyframe: bool,
+}
+
+impl VisualPose {
+    /// `keyframe_from_robot` in the plane of `keyframe`'s robot. Only what came after the keyframe is in the covariance,
+    /// and the tilt that the pose may have gathered before is in neither.
+    pub(super) fn since(&self, keyframe: &Self) -> UncertainPose {
+        let keyframe_from_start = keyframe.start_from_robot.inverse();
+        let keyframe_from_robot = keyframe_from_start * self.start_from_robot;
+        let carry = adjoint(&keyframe_from_start);
+        let on_plane = |covariance: &Matrix6<f64>| {
+            let mut planar =
+                UncertainPose::from_isometry(&keyframe_from_robot, &(carry * covariance * carry.transpose()));
+            planar.covariance += Matrix3::from_diagonal_element(LEAST_SIGMA * LEAST_SIGMA);
+            planar
+        };
+        let since = on_plane(&(self.covariance - keyframe.covariance));
+        // A pose that is surer than its keyframe was not measured from it: then its own covariance has to do.
+        if since.covariance.cholesky().is_some() { since } else { on_plane(&self.covariance) }
+    }
+
+    /// Whether a robot may have it: finite numbers, small enough that no square of them runs over.
+    pub(super) fn is_possible(&self) -> bool {
+        let pose = &self.start_from_robot;
+        let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
+        numbers.chain(self.covariance.iter()).all(|value| value.abs() < LARGEST)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fusion::planar::PlanarPose;
+    use crate::geometry::exp_se3;
+    use nalgebra::Vector6;
+
+    #[test]
+    fn only_the_way_since_the_keyframe_counts() {
+        let time = Timestamp::from_nanos(0);
+        let keyframe = VisualPose {
+            time,
+            // Four metres off and tilted by what has gathered on the way.
+            start_from_robot: exp_se3(&Vector6::new(4.0, 1.0, 0.1, 0.02, -0.03, 0.8)),
+            covariance: Matrix6::identity() * 0.04,
+            tracked: true,
+            keyframe: true,
+        };
+        let motion = PlanarPose::new(0.1, 0.02, 0.05);
+        let start_from_robot = keyframe.start_from_robot * motion.to_isometry();
+        // A millimetre each way at the robot, a milliradian of turn about it.
+        let carry = adjoint(&start_from_robot);
+        let covariance = keyframe.covariance + carry * (Matrix6::identity() * 1e-6) * carry.transpose();
+        let since = VisualPose { start_from_robot, covariance, ..keyframe }.since(&keyframe);
+        assert!(since.pose.minus(&motion).norm() < 1e-9);
+        let expected = Matrix3::identity() * (1e-6 + LEAST_SIGMA * LEAST_SIGMA);
+        assert!((since.covariance - expected).norm() < 1e-8, "{}", since.covariance);
+        let surer = VisualPose { covariance: Matrix6::identity() * 0.01, ..keyframe };
+        assert!(surer.since(&keyframe).covariance.cholesky().is_some());
+    }
+}
