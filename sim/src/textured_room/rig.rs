@@ -48,5 +48,6 @@ pub fn rig() -> Rig {
             UnitQuaternion::from_scaled_axis(Vector3::new(0.003, -0.006, 0.001)),
         ),
         robot_from_colour: Isometry3::identity(),
+        drive: None,
     }
 }
