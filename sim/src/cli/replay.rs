@@ -10,11 +10,12 @@ use sunblind_estimator::params::Variant;
 use sunblind_estimator::{EstimatorParams, ParamError, Rig};
 
 use super::output::OutputFolder;
-use super::overrides::{self, Override};
+use super::overrides;
 use super::{Failure, answer, table, tell};
 use crate::record::Recording;
 use crate::report;
 use crate::runner::{Driven, ReplayOptions, replay};
+use crate::scenario::Override;
 
 const HELP: &str = "\
 Examples:
