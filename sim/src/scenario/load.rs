@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
+
 use super::error::{Fault, ScenarioError, nearest};
 use super::{Scenario, Source};
 use crate::textured_room;
@@ -12,7 +14,8 @@ const TEXTURED_ROOM: &str = "textured_room";
 const WORLDS: [&str; 2] = ["laboratory", TEXTURED_ROOM];
 
 /// A scenario of either kind; `world.name` decides.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(untagged, title = "Sunblind scenario")]
 pub enum AnyScenario {
     /// A robot drives through a world.
     Robot(Box<Scenario>),

@@ -1,26 +1,14 @@
 //! The JSON Schema of scenario files, for editors.
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
+use schemars::{Schema, SchemaGenerator, json_schema, schema_for};
 use serde_json::{Map, Value, json};
 use sunblind_estimator::EstimatorParams;
 
-use super::Scenario;
-use crate::textured_room;
+use super::AnyScenario;
 
-/// What a scenario file may hold; `world.name` decides which of the two it is.
-#[derive(JsonSchema)]
-#[schemars(untagged, title = "Sunblind scenario")]
-#[expect(dead_code, reason = "only its schema is wanted")]
-enum File {
-    /// A robot drives through a world.
-    Robot(Scenario),
-    /// A camera is carried through the textured room.
-    TexturedRoom(textured_room::Scenario),
-}
-
-/// The schema.
+/// What a scenario file may hold.
 pub fn schema() -> Schema {
-    schema_for!(File)
+    schema_for!(AnyScenario)
 }
 
 /// From the defaults: the estimator knows nothing of schemas.

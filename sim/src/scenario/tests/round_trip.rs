@@ -98,8 +98,8 @@ fn estimator() -> impl Strategy<Value = Estimator> {
         Just(Drives::Truth)
     ];
     (drives, any::<bool>(), 1..5000_usize, 0.0..1.0_f32).prop_map(|(drives, paper, max_features, max_ratio)| {
-        let mut params = EstimatorParams::default();
-        params.variant = if paper { Variant::Paper } else { Variant::Keyframes };
+        let variant = if paper { Variant::Paper } else { Variant::Keyframes };
+        let mut params = EstimatorParams { variant, ..EstimatorParams::default() };
         params.surf.max_features = max_features;
         params.matching.max_ratio = max_ratio;
         Estimator { drives, params }
