@@ -276,3 +276,79 @@ fn disposition(taken: Option<Result<(), Rejection>>) -> Disposition {
         None => Disposition::Rejected(Rejection::Unsupported),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fusion::Drive;
+    use crate::image::Image;
+    use nalgebra::Vector3;
+
+    fn estimator(drive: Option<Drive>, pose_from: PoseSource) -> Estimator {
+        let mut rig = Rig { drive, ..Rig::kinect_default() };
+        // As a Kinect looks from a robot: x forward, y left, z up of what the camera has as z, −x, −y.
+        rig.robot_from_colour.rotation =
+            nalgebra::UnitQuaternion::new(Vector3::new(1.0, -1.0, 1.0).normalize() * 2.0944);
+        Estimator::new(EstimatorParams { pose_from, ..EstimatorParams::default() }, rig).unwrap()
+    }
+
+    fn hand_over(estimator: &mut Estimator, millis: i64, data: MeasurementData) -> Disposition {
+        let captured_at = Timestamp::from_nanos(millis * 1_000_000);
+        estimator.handle(Measurement { captured_at, available_at: captured_at, data })
+    }
+
+    /// Two seconds at half a metre a second, in front of a camera that sees nothing.
+    fn drive_blind(estimator: &mut Estimator) {
+        for tenth in 0..=20 {
+            let ticks = 6_900 * tenth;
+            let wheels = MeasurementData::WheelTicks { left: ticks, right: ticks };
+            assert_eq!(hand_over(estimator, 100 * tenth, wheels), Disposition::Used);
+            assert_eq!(hand_over(estimator, 100 * tenth, MeasurementData::Gyro(Vector3::zeros())), Disposition::Used);
+        }
+        hand_over(estimator, 2_000, MeasurementData::Rgb(Arc::new(Image::filled(640, 480, [0; 3]))));
+        let seen = hand_over(estimator, 2_000, MeasurementData::Depth(Arc::new(Image::filled(640, 480, 0))));
+        assert!(matches!(seen, Disposition::Rejected(Rejection::NoMotion(_))));
+    }
+
+    #[test]
+    fn without_wheels_there_is_visual_odometry_and_nothing_else() {
+        let mut estimator = estimator(None, PoseSource::Svsf);
+        for data in [MeasurementData::WheelTicks { left: 0, right: 0 }, MeasurementData::Gyro(Vector3::zeros())] {
+            assert_eq!(hand_over(&mut estimator, 0, data), Disposition::Rejected(Rejection::Unsupported));
+        }
+        assert_eq!(estimator.estimates(), [(PoseSource::Mvo, estimator.estimate())]);
+        assert_eq!(estimator.estimate().health, Health::Initialising);
+    }
+
+    #[test]
+    fn a_blind_robot_goes_by_its_wheels() {
+        for source in [PoseSource::Odometry, PoseSource::Ekf, PoseSource::Svsf] {
+            let mut estimator = estimator(Some(Drive::default()), source);
+            drive_blind(&mut estimator);
+            let Estimate { time, odom_from_robot, covariance, mode, health } = estimator.estimate();
+            assert_eq!((mode, health), (Mode::Odometer, Health::Good));
+            assert_eq!(time, Some(Timestamp::from_nanos(2_000_000_000)));
+            assert!((odom_from_robot.translation.vector - Vector3::x()).norm() < 1e-9);
+            assert!(covariance[(0, 0)] > 0.0 && covariance[(2, 2)] == 0.0);
+        }
+    }
+
+    #[test]
+    fn all_four_poses_go_by_their_names() {
+        let mut estimator = estimator(Some(Drive::default()), PoseSource::Mvo);
+        drive_blind(&mut estimator);
+        let estimates = estimator.estimates();
+        let names: Vec<&str> = estimates.iter().map(|(source, _)| source.name()).collect();
+        assert_eq!(names, ["odometry", "mvo", "ekf", "svsf"]);
+        assert_eq!(estimator.estimate(), estimates[1].1);
+        assert!(matches!(estimator.estimate().health, Health::Lost(_)));
+        assert_eq!(estimates[2].1.odom_from_robot, estimates[3].1.odom_from_robot);
+    }
+
+    #[test]
+    fn wheels_that_cannot_roll_are_refused() {
+        let rig = Rig { drive: Some(Drive { ticks_per_metre: 0.0, ..Drive::default() }), ..Rig::kinect_default() };
+        let Err(error) = Estimator::new(EstimatorParams::default(), rig) else { panic!("taken") };
+        assert!(error.to_string().contains("ticks_per_metre"));
+    }
+}

@@ -8,6 +8,9 @@ use sunblind_estimator::{
 /// Moves by what the images' mean values say: any change in what reaches it, or in which order, moves it elsewhere.
 #[derive(Default)]
 pub struct FakeLocalizer {
+    /// Of the newest image of either kind.
+    newest: Option<Timestamp>,
+    /// Of the newest colour image, at which its pose is.
     time: Option<Timestamp>,
     odom_from_robot: Isometry3<f64>,
     frames: u32,
@@ -21,15 +24,16 @@ impl FakeLocalizer {
 
 impl Localizer for FakeLocalizer {
     fn handle(&mut self, measurement: Measurement) -> Disposition {
-        if self.time.is_some_and(|time| measurement.captured_at <= time) {
+        if self.newest.is_some_and(|newest| measurement.captured_at <= newest) {
             return Disposition::Rejected(Rejection::OutOfOrder);
         }
-        self.time = Some(measurement.captured_at);
+        self.newest = Some(measurement.captured_at);
         match measurement.data {
             MeasurementData::Rgb(image) => {
                 let sum: u64 = image.pixels().as_flattened().iter().map(|&value| u64::from(value)).sum();
                 self.step(sum as f64 / image.pixels().len() as f64 * 1e-3, Vector3::x());
                 self.frames += 1;
+                self.time = self.newest;
             }
             MeasurementData::Depth(image) => {
                 let sum: u64 = image.pixels().iter().map(|&value| u64::from(value)).sum();

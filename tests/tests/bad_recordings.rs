@@ -184,3 +184,70 @@ fn a_truth_that_is_no_pose() {
         refused(&recording, &[expected, "write `timestamp tx ty tz qx qy qz qw`"]);
     }
 }
+
+/// A recording with wheels and an infrared image.
+fn robot() -> TinyRecording {
+    let recording = TinyRecording::new(2);
+    let calibration = fs::read_to_string(recording.path("calibration.toml")).unwrap();
+    let mount = "[mount]\nrobot_from_colour = { translation_m = [0, 0, 0], rotation_xyzw = [0, 0, 0, 1] }";
+    let drive = "[drive]\nticks_per_m = 138000.0\neffective_track_m = 0.588";
+    recording.write("calibration.toml", format!("{calibration}\n{mount}\n\n{drive}\n"));
+    recording.write("odometry.txt", "# timestamp left_ticks right_ticks\n100.0 0 0\n100.1 1380 1381\n");
+    recording.write("gyro.txt", "100.0 0 0 0.01\n100.1 0 0 0.02\n");
+    recording.write("ir.txt", "100.05 ir/0.png\n");
+    fs::create_dir(recording.path("ir")).unwrap();
+    image::ImageBuffer::from_pixel(WIDTH, HEIGHT, image::Luma([1023_u16])).save(recording.path("ir/0.png")).unwrap();
+    recording
+}
+
+#[test]
+fn wheels_that_count_nothing() {
+    let line = "write `timestamp left_ticks right_ticks`: seconds, encoder counts, or delete this line";
+    for (from, to, expected) in [
+        ("100.1 1380 1381", "100.1 1380.5 1381", "odometry.txt:3:7: `1380.5` is no whole number"),
+        ("100.1 1380 1381", "100.1 1380", "odometry.txt:3:11: 1 of 2 numbers"),
+        ("100.1 1380 1381", "100.1 1380 1381 5", "odometry.txt:3:17: `5` is one field too many"),
+    ] {
+        let recording = robot();
+        recording.replace("odometry.txt", from, to);
+        refused(&recording, &[expected, line]);
+    }
+    let recording = robot();
+    recording.replace("odometry.txt", "100.1 ", "100.0 ");
+    refused(&recording, &["odometry.txt:3:1: time stamp 100 s is not later than 100 s"]);
+    recording.write("odometry.txt", "# nothing\n");
+    refused(&recording, &["odometry.txt: lists nothing", "`timestamp left_ticks right_ticks`"]);
+}
+
+#[test]
+fn a_gyro_that_is_no_number() {
+    let recording = robot();
+    recording.replace("gyro.txt", "0.02", "NaN");
+    refused(&recording, &["gyro.txt:2:11: `NaN` is no finite number", "`timestamp wx wy wz`: seconds, rad/s"]);
+}
+
+#[test]
+fn infrared_that_is_none() {
+    let recording = robot();
+    save(&recording, "ir/0.png", WIDTH, HEIGHT, ColorType::L16);
+    refused(&recording, &["ir/0.png: an infrared value is 1799, but a Kinect's have 10 bits", "without scaling"]);
+    save(&recording, "ir/0.png", WIDTH, HEIGHT, ColorType::L8);
+    refused(&recording, &["ir/0.png: infrared must be 16-bit grey PNG, this image is 8-bit grey"]);
+    save(&recording, "ir/0.png", WIDTH, HEIGHT + 8, ColorType::L16);
+    refused(&recording, &["ir/0.png: the image is 64×56 px", "64×48 px for [depth]"]);
+    recording.remove("ir/0.png");
+    refused(&recording, &["ir.txt:1:8: the image", "ir/0.png does not exist"]);
+}
+
+#[test]
+fn a_drive_that_no_robot_has() {
+    let recording = robot();
+    recording.replace("calibration.toml", "ticks_per_m = 138000.0", "ticks_per_m = -1");
+    refused(&recording, &["calibration.toml:31:15: ticks_per_m is -1; write a positive number, such as 138000.0"]);
+    let recording = robot();
+    recording.replace("calibration.toml", "[mount]\nrobot_from_colour", "#");
+    refused(&recording, &["calibration.toml:30:1: [drive] needs to know where the camera sits", "write [mount]"]);
+    let recording = robot();
+    recording.replace("calibration.toml", "[drive]", "[latency]\nrgb = 0.1\n\n[drive]");
+    refused(&recording, &["calibration.toml:31:1: unknown variant `rgb`, expected one of `gyro_s`"]);
+}

@@ -95,8 +95,8 @@ impl WheelOdometryParams {
         Arc { distance: 0.0, turn: 0.0, distance_variance: shift, turn_variance: turn, side_variance: shift }
     }
 
-    /// The noise of an arc driven in `seconds`.
-    pub(super) fn arc(&self, distance: f64, turn: f64, seconds: f64) -> Arc {
+    /// An arc driven in `seconds`, with its noise.
+    pub fn arc(&self, distance: f64, turn: f64, seconds: f64) -> Arc {
         let over = |per_metre: f64, per_radian: f64, per_second: f64| {
             per_metre.powi(2) * distance.abs() + per_radian.powi(2) * turn.abs() + per_second.powi(2) * seconds
         };

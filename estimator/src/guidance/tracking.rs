@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::VelocityCommand;
 use super::path::{Path, PathPoint};
 use crate::fusion::{PlanarPose, wrap_angle};
+use crate::params::ParamError;
 
 /// Parameters of the tracking.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,6 +57,30 @@ impl Default for TrackingParams {
     }
 }
 
+impl TrackingParams {
+    /// Checks every number once, so that the tracker need not.
+    ///
+    /// # Errors
+    /// The first number outside its range.
+    pub fn validate(&self) -> Result<(), ParamError> {
+        let checks = [
+            ("speed_m_per_s", self.speed),
+            ("max_turn_rad_per_s", self.max_turn),
+            ("max_acceleration_m_per_s2", self.max_acceleration),
+            ("max_turn_acceleration_rad_per_s2", self.max_turn_acceleration),
+            ("max_side_acceleration_m_per_s2", self.max_side_acceleration),
+            ("look_ahead_m", self.look_ahead),
+            ("heading_way_m", self.heading_way),
+            ("turn_in_place_rad", self.turn_in_place),
+            ("reached_m", self.reached),
+        ];
+        match checks.into_iter().find(|(_, value)| !(1e-3..1e3).contains(value)) {
+            Some((key, value)) => Err(ParamError::OutOfRange { key, value, wanted: "between 0.001 and 1000" }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Turning on the spot ends at this heading error, radians.
 const ALIGNED: f64 = 0.1;
 /// How far ahead of its last place on the path the robot is looked for, metres.
@@ -77,7 +102,7 @@ pub struct Tracker {
 }
 
 impl Tracker {
-    /// At the start of a path, standing.
+    /// At the start of a path, standing. The parameters have been [validated](TrackingParams::validate).
     pub fn new(path: Path, params: TrackingParams) -> Self {
         Self {
             speeds: speed_profile(&path, &params),
@@ -193,7 +218,7 @@ fn direction(heading: f64) -> Vector2<f64> {
 /// What each point's bend allows, lowered backwards from the end of each section to what the brakes can do.
 fn speed_profile(path: &Path, params: &TrackingParams) -> Vec<f64> {
     // Half of the brakes, the other half is for what the robot does otherwise.
-    let brake = params.max_acceleration;
+    let brake = 0.5 * params.max_acceleration;
     let mut speeds: Vec<f64> = path
         .points()
         .iter()
@@ -208,7 +233,7 @@ fn speed_profile(path: &Path, params: &TrackingParams) -> Vec<f64> {
         speeds[section.end - 1] = speeds[section.end - 1].min(0.02);
         for index in section.clone().rev().skip(1) {
             let way = path.points()[index + 1].along - path.points()[index].along;
-            speeds[index] = speeds[index].min((speeds[index + 1].powi(2) + 2.0 * 0.5 * brake * way).sqrt());
+            speeds[index] = speeds[index].min((speeds[index + 1].powi(2) + 2.0 * brake * way).sqrt());
         }
     }
     speeds
@@ -306,6 +331,13 @@ mod tests {
         let (_, path) = paths().swap_remove(0);
         let (way, _) = drive(&path, PlanarPose::new(0.0, 0.0, PI));
         assert!(way.iter().all(|robot| robot.x > -0.01));
+    }
+
+    #[test]
+    fn a_speed_that_is_none_is_refused() {
+        assert_eq!(TrackingParams::default().validate(), Ok(()));
+        let wrong = TrackingParams { look_ahead: 0.0, ..TrackingParams::default() };
+        assert!(wrong.validate().unwrap_err().to_string().starts_with("look_ahead_m = 0"));
     }
 
     #[test]

@@ -17,6 +17,7 @@ use clap::{Parser, Subcommand};
 use sunblind_estimator::ParamError;
 use thiserror::Error;
 
+use crate::new_folder::FolderError;
 use crate::record::RecordError;
 use crate::record::writer::WriteError;
 use crate::runner::ReplayError;
@@ -69,7 +70,7 @@ enum Failure {
     #[error(transparent)]
     Override(#[from] overrides::OverrideError),
     #[error(transparent)]
-    Output(#[from] output::OutputError),
+    Output(#[from] FolderError),
 }
 
 /// Runs the command that the process was started with.

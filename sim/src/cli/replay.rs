@@ -9,9 +9,8 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use sunblind_estimator::params::Variant;
 use sunblind_estimator::{EstimatorParams, ParamError, Rig};
 
-use super::output::OutputFolder;
 use super::overrides;
-use super::{Failure, answer, table, tell};
+use super::{Failure, answer, output, table, tell};
 use crate::record::Recording;
 use crate::report;
 use crate::runner::{Driven, ReplayOptions, replay};
@@ -30,6 +29,9 @@ DATASET is a folder in the TUM RGB-D layout:
   rgb.txt, depth.txt    `timestamp filename` a line; seconds; 8-bit colour, 16-bit grey depth, PNG or JPEG
   groundtruth.txt       optional; `timestamp tx ty tz qx qy qz qw` a line; seconds, metres, unit quaternion
   calibration.toml      optional; lengths in px and m; without it a Kinect's defaults are assumed
+  odometry.txt          optional, with [drive] in calibration.toml; `timestamp left_ticks right_ticks` a line
+  gyro.txt              optional; `timestamp wx wy wz` a line; rad/s in the robot's frame
+  ir.txt                optional; `timestamp filename` a line; 16-bit grey with 10-bit values
 
 The output folder holds report.html (for reading, one file), summary.json (for machines), truth.tum and one <track>.tum
 for each estimate (for evo), and timeline.csv. It appears whole at the end or not at all; an earlier run's is replaced.
@@ -41,7 +43,9 @@ estimator's time per frame (ms), without decoding the images.";
 /// Run the estimator on a recording and hold it against the truth.
 ///
 /// Two tracks are estimated: `mvo`, the product's visual odometry, and `mvo_paper`, the same as in the paper, to
-/// compare with. Equal inputs give equal results, for any number of threads.
+/// compare with. Where the recording has wheels there are three more: `odometry`, the wheels alone, and `ekf` and
+/// `svsf`, both together; the first one shown is the one that the robot would go by. Equal inputs give equal results, for
+/// any number of threads.
 #[derive(Args)]
 #[command(after_long_help = HELP)]
 pub(super) struct Replay {
@@ -67,7 +71,7 @@ impl Replay {
         let recording = Recording::open(&self.dataset, self.calibration.as_deref())?;
         let localizers = localizers(params, &recording.rig)?;
         let out = self.out.unwrap_or_else(|| Path::new("out").join(&recording.name));
-        let folder = OutputFolder::check(&out)?;
+        output::check(&out)?;
 
         let progress = progress_bar(recording.frames.len());
         let mut options = ReplayOptions { on_frame: &|| progress.inc(1), ..ReplayOptions::default() };
@@ -79,7 +83,7 @@ impl Replay {
         for warning in &log.warnings {
             tell(&format!("warning: {warning}"));
         }
-        folder.publish(|folder| report::write(&log, folder).map(drop))?;
+        output::publish(&out, |folder| report::write(&log, folder).map(drop))?;
         answer(&format!(
             "{}: {} frames, poses of {}\n{}\nreport: {}",
             recording.name,
@@ -92,7 +96,7 @@ impl Replay {
     }
 }
 
-/// The product's odometry and, unless it is asked for anyway, the paper's to compare with.
+/// The product's estimator and, unless it is asked for anyway, the paper's visual odometry to compare with.
 fn localizers(params: EstimatorParams, rig: &Rig) -> Result<Vec<Driven>, ParamError> {
     let mut paper = params.clone();
     paper.variant = Variant::Paper;
@@ -100,7 +104,9 @@ fn localizers(params: EstimatorParams, rig: &Rig) -> Result<Vec<Driven>, ParamEr
         Variant::Keyframes => "visual odometry, keyframes",
         Variant::Paper => PAPER_LABEL,
     };
-    let compared = (paper != params).then(|| Driven::product("mvo_paper", PAPER_LABEL, paper, rig.clone()));
+    // Only its visual odometry is of interest.
+    let without_wheels = Rig { drive: None, ..rig.clone() };
+    let compared = (paper != params).then(|| Driven::product("mvo_paper", PAPER_LABEL, paper, without_wheels));
     let mut localizers = vec![Driven::product("mvo", label, params, rig.clone())?];
     localizers.extend(compared.transpose()?);
     Ok(localizers)

@@ -1,4 +1,4 @@
-//! `calibration.toml`: what is believed of a recording's cameras.
+//! `calibration.toml`: what is believed of a recording's sensors.
 //!
 //! ```toml
 //! registered = false                       # true: depth images lie in the colour camera's pixels
@@ -24,23 +24,36 @@
 //!
 //! [mount]                                  # instead of [truth]: the poses are those of a robot
 //! robot_from_colour = { translation_m = [0.1, 0.0, 0.6], rotation_xyzw = [-0.5, 0.5, -0.5, 0.5] }
+//!
+//! [drive]                                  # optional, with [mount]: the robot's driven wheels, read by odometry.txt
+//! ticks_per_m = 138000.0
+//! effective_track_m = 0.588                # the track that a differential drive would need to turn like this robot
+//!
+//! [latency]                                # optional: from a reading's time stamp until the estimator can have it;
+//! depth_s = 0.066666667                    # 0 where not given; likewise gyro_s, odometry_s, rgb_s, ir_s, …
 //! ```
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Quaternion, Translation3};
 use serde::Deserialize;
 use sunblind_estimator::Rig;
-use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion};
+use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, RigError};
+use sunblind_estimator::fusion::Drive;
 use toml::Spanned;
 
 use super::error::RecordError;
 use super::list;
 use super::place::Place;
+use super::rotation::rotation;
+use super::sensor::{Latency, Sensor};
 
 /// How far a quaternion's norm may be from 1: what four decimals leave.
 const NORM_TOLERANCE: f64 = 1e-3;
+/// No reading takes longer to arrive, seconds.
+const MAX_LATENCY: f64 = 60.0;
 
 /// A recording's calibration.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +62,8 @@ pub struct Calibration {
     pub rig: Rig,
     /// Whose poses are wanted, and whose the truth gives.
     pub body: Body,
+    /// How long readings are under way.
+    pub latency: Latency,
 }
 
 /// The body that a recording's poses are of.
@@ -76,7 +91,7 @@ impl Body {
 impl Calibration {
     /// What is assumed of a Kinect that nobody calibrated.
     pub fn kinect_default() -> Self {
-        Self { rig: Rig::kinect_default(), body: Body::Colour }
+        Self { rig: Rig::kinect_default(), body: Body::Colour, latency: Latency::default() }
     }
 }
 
@@ -131,11 +146,39 @@ fn parse(text: &str) -> Result<Calibration, Fault> {
         },
         colour_from_depth,
         robot_from_colour,
-        drive: None,
+        drive: file.drive.as_ref().map(|drive| wheels(drive, body)).transpose()?,
     };
-    // What is left to find concerns both cameras: registered depth of another size than colour.
-    rig.validate().map_err(|error| fault(file.registered.span(), format!("{error}; write registered = false")))?;
-    Ok(Calibration { rig, body })
+    rig.validate().map_err(|error| match (&error, &file.drive) {
+        (RigError::Drive { .. }, Some(drive)) => fault(drive.span(), error.to_string()),
+        // What is left to find concerns both cameras: registered depth of another size than colour.
+        _ => fault(file.registered.span(), format!("{error}; write registered = false")),
+    })?;
+    Ok(Calibration { rig, body, latency: latency(&file.latency)? })
+}
+
+fn wheels(drive: &Spanned<Wheels>, body: Body) -> Result<Drive, Fault> {
+    if body != Body::Robot {
+        return Err(fault(
+            drive.span(),
+            "[drive] needs to know where the camera sits on the robot; write [mount] with robot_from_colour",
+        ));
+    }
+    let Wheels { ticks_per_m, effective_track_m } = drive.get_ref();
+    Ok(Drive {
+        ticks_per_metre: positive("ticks_per_m", ticks_per_m, "138000.0 (a P3-AT's)")?,
+        effective_track: positive("effective_track_m", effective_track_m, "0.588 (a P3-AT's)")?,
+    })
+}
+
+fn latency(delays: &BTreeMap<Sensor, Spanned<f64>>) -> Result<Latency, Fault> {
+    delays.iter().try_fold(Latency::default(), |latency, (&sensor, delay)| {
+        let seconds = *delay.get_ref();
+        if !(0.0..=MAX_LATENCY).contains(&seconds) {
+            let problem = format!("{}_s is {seconds}; write 0 to {MAX_LATENCY} s, such as 0.05", sensor.stem());
+            return Err(fault(delay.span(), problem));
+        }
+        Ok(latency.with(sensor, seconds))
+    })
 }
 
 #[derive(Deserialize)]
@@ -147,6 +190,9 @@ struct File {
     colour_from_depth: Transform,
     truth: Option<Spanned<Truth>>,
     mount: Option<Mount>,
+    drive: Option<Spanned<Wheels>>,
+    #[serde(default)]
+    latency: BTreeMap<Sensor, Spanned<f64>>,
 }
 
 /// A camera's table. Every key is optional here, so that a missing one can be answered with what to write.
@@ -189,6 +235,13 @@ enum Camera {
 #[serde(deny_unknown_fields)]
 struct Mount {
     robot_from_colour: Transform,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wheels {
+    ticks_per_m: Spanned<f64>,
+    effective_track_m: Spanned<f64>,
 }
 
 impl Optics {
@@ -254,16 +307,16 @@ impl Transform {
         let [tx, ty, tz] = all_finite("translation_m", &self.translation_m)?;
         let [qx, qy, qz, qw] = all_finite("rotation_xyzw", &self.rotation_xyzw)?;
         let quaternion = Quaternion::new(qw, qx, qy, qz);
-        let norm = quaternion.norm();
-        if (norm - 1.0).abs() > NORM_TOLERANCE {
+        let rotation = rotation(quaternion, NORM_TOLERANCE).ok_or_else(|| {
+            let norm = quaternion.norm();
             let instead = if norm > NORM_TOLERANCE { quaternion.coords / norm } else { Quaternion::identity().coords };
             let [x, y, z, w] = instead.into();
-            return Err(fault(
+            fault(
                 self.rotation_xyzw.span(),
                 format!("rotation_xyzw has length {norm:.4}, not 1; write [{x:.6}, {y:.6}, {z:.6}, {w:.6}]"),
-            ));
-        }
-        Ok(Isometry3::from_parts(Translation3::new(tx, ty, tz), UnitQuaternion::from_quaternion(quaternion)))
+            )
+        })?;
+        Ok(Isometry3::from_parts(Translation3::new(tx, ty, tz), rotation))
     }
 }
 
@@ -286,6 +339,8 @@ fn all_finite<const N: usize>(key: &str, values: &Spanned<[f64; N]>) -> Result<[
         .then_some(*values.get_ref())
         .ok_or_else(|| fault(values.span(), format!("{key} must hold {N} finite numbers")))
 }
+
+mod text;
 
 #[cfg(test)]
 mod tests;

@@ -39,12 +39,9 @@ pub enum RecordError {
     /// A line that names an image that is not there.
     #[error("{place}: the image {} does not exist; restore it or delete this line", image.display())]
     NoImage { place: Place, image: PathBuf },
-    /// A pose that is none.
-    #[error(
-        "{place}: {problem}; write `timestamp tx ty tz qx qy qz qw`: seconds, metres and a unit quaternion, \
-         or delete this line"
-    )]
-    Pose { place: Place, problem: String },
+    /// Numbers that are none, or not as many as wanted.
+    #[error("{place}: {problem}; write {wanted}, or delete this line")]
+    Values { place: Place, problem: String, wanted: &'static str },
     /// No colour image has a depth image close enough in time.
     #[error(
         "{}: no colour image has a depth image within {within_ms} ms; rgb.txt and depth.txt must be on the same clock",
@@ -64,10 +61,14 @@ pub enum RecordError {
         file.display(), found.0, found.1, expected.0, expected.1
     )]
     Size { file: PathBuf, camera: &'static str, found: (usize, usize), expected: (usize, usize) },
-    /// A depth image that is not 16-bit grey.
-    #[error("{}: a depth image must be a 16-bit grey PNG, this one is {found}; export depth again with 16 bits a pixel and \
+    /// A depth or infrared image that is not 16-bit grey.
+    #[error("{}: {kind} must be 16-bit grey PNG, this image is {found}; export {kind} again with 16 bits a pixel and \
          without colours", file.display())]
-    DepthFormat { file: PathBuf, found: String },
+    Not16Bit { file: PathBuf, kind: &'static str, found: String },
+    /// An infrared image that was scaled.
+    #[error("{}: an infrared value is {found}, but a Kinect's have 10 bits, 0 to 1023; export infrared again without \
+         scaling it", file.display())]
+    InfraredRange { file: PathBuf, found: u16 },
     /// A calibration that describes no camera.
     #[error("{place}: {problem}")]
     Calibration { place: Place, problem: String },

@@ -1,4 +1,4 @@
-//! One colour image and the depth image that belongs to it.
+//! Images on disk, and the two of one frame.
 
 use std::fs;
 use std::io::Cursor;
@@ -6,10 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader};
-use sunblind_estimator::image::{DepthImage, Image, RgbImage};
+use sunblind_estimator::image::{DepthImage, Image, InfraredImage, RgbImage};
 use sunblind_estimator::{Rig, Timestamp};
 
 use super::error::RecordError;
+
+/// The largest of ten bits.
+const INFRARED_MAX: u16 = 1023;
 
 /// An image on disk.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -57,19 +60,32 @@ impl FrameFiles {
     }
 }
 
-fn colour(file: &Path, expected: (usize, usize)) -> Result<RgbImage, RecordError> {
+pub(super) fn colour(file: &Path, expected: (usize, usize)) -> Result<RgbImage, RecordError> {
     let bytes = read(file)?;
     let decoder = decoder(file, &bytes, "colour", expected)?;
     let image = DynamicImage::from_decoder(decoder).map_err(|source| undecodable(file, source))?;
     Ok(of_size(expected, image.into_rgb8().into_raw().as_chunks().0.to_vec()))
 }
 
-fn depth(file: &Path, expected: (usize, usize)) -> Result<DepthImage, RecordError> {
+pub(super) fn depth(file: &Path, expected: (usize, usize)) -> Result<DepthImage, RecordError> {
+    grey16(file, "depth", expected)
+}
+
+/// The infrared camera is the depth camera: `expected` is its size.
+pub(super) fn infrared(file: &Path, expected: (usize, usize)) -> Result<InfraredImage, RecordError> {
+    let image = grey16(file, "infrared", expected)?;
+    match image.pixels().iter().find(|&&value| value > INFRARED_MAX) {
+        Some(&found) => Err(RecordError::InfraredRange { file: file.to_owned(), found }),
+        None => Ok(image),
+    }
+}
+
+fn grey16(file: &Path, kind: &'static str, expected: (usize, usize)) -> Result<Image<u16>, RecordError> {
     let bytes = read(file)?;
     let decoder = decoder(file, &bytes, "depth", expected)?;
     let found = decoder.color_type();
     if found != ColorType::L16 {
-        return Err(RecordError::DepthFormat { file: file.to_owned(), found: in_words(found) });
+        return Err(RecordError::Not16Bit { file: file.to_owned(), kind, found: in_words(found) });
     }
     let image = DynamicImage::from_decoder(decoder).map_err(|source| undecodable(file, source))?;
     Ok(of_size(expected, image.into_luma16().into_raw()))

@@ -4,11 +4,13 @@
 use std::fs;
 use std::io;
 use std::path::Path;
+use std::str::FromStr;
 
 use sunblind_estimator::Timestamp;
 
 use super::error::RecordError;
 use super::place::Place;
+use super::stamp;
 
 /// One line.
 pub(super) struct Entry<'a> {
@@ -21,6 +23,34 @@ pub(super) struct Entry<'a> {
 }
 
 impl Entry<'_> {
+    /// The `N` values after the time stamp, each of which must be `valid`; `wanted` says what a line looks like.
+    pub fn values<T: FromStr, const N: usize>(
+        &self,
+        kind: &str,
+        valid: impl Fn(&T) -> bool,
+        wanted: &'static str,
+    ) -> Result<[T; N], RecordError> {
+        let fault = |part: &str, problem: String| RecordError::Values { place: self.place_of(part), problem, wanted };
+        let end = &self.rest[self.rest.len()..];
+        let mut fields = self.rest.split_whitespace();
+        let mut values = Vec::with_capacity(N);
+        for index in 0..N {
+            let missing = || fault(end, format!("{index} of {N} numbers after the time stamp"));
+            let field = fields.next().ok_or_else(missing)?;
+            let value = field.parse().ok().filter(&valid);
+            values.push(value.ok_or_else(|| fault(field, format!("`{field}` is no {kind} number")))?);
+        }
+        match fields.next() {
+            Some(extra) => Err(fault(extra, format!("`{extra}` is one field too many"))),
+            None => Ok(values.try_into().unwrap_or_else(|_| unreachable!("as many as were asked for"))),
+        }
+    }
+
+    /// As [`values`](Self::values), of finite numbers.
+    pub fn numbers<const N: usize>(&self, wanted: &'static str) -> Result<[f64; N], RecordError> {
+        self.values("finite", |value: &f64| value.is_finite(), wanted)
+    }
+
     /// Where `part`, a slice of this line, stands.
     pub fn place_of(&self, part: &str) -> Place {
         place_of(self.file, self.text, part)
@@ -58,9 +88,9 @@ pub(super) fn entries<'a>(
     let mut entries: Vec<Entry> = Vec::new();
     let content = text.strip_prefix('\u{feff}').unwrap_or(text);
     for line in content.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        let (stamp, rest) = line.split_once(char::is_whitespace).unwrap_or((line, &line[line.len()..]));
-        let place = || place_of(file, text, stamp);
-        let time = parse_time(stamp).ok_or_else(|| RecordError::Time { place: place(), found: stamp.to_owned() })?;
+        let (time, rest) = line.split_once(char::is_whitespace).unwrap_or((line, &line[line.len()..]));
+        let place = || place_of(file, text, time);
+        let time = stamp::parse(time).ok_or_else(|| RecordError::Time { place: place(), found: time.to_owned() })?;
         if let Some(previous) = entries.last().filter(|previous| !order.allows(previous.time, time)) {
             let (found, previous) = (time.as_secs(), previous.time.as_secs());
             return Err(RecordError::NotLater { place: place(), found, previous });
@@ -76,50 +106,9 @@ impl Order {
     }
 }
 
-/// A decimal number of seconds, exact to the nanosecond (an f64 is not, at today's Unix times); digits below
-/// that are dropped. Other notations (1.3e9) go through f64.
-fn parse_time(text: &str) -> Option<Timestamp> {
-    exact_nanos(text).map(Timestamp::from_nanos).or_else(|| Timestamp::from_secs(text.parse().ok()?))
-}
-
-fn exact_nanos(text: &str) -> Option<i64> {
-    let (negative, digits) = match text.strip_prefix('-') {
-        Some(digits) => (true, digits),
-        None => (false, text),
-    };
-    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    if whole.is_empty() || !whole.bytes().chain(fraction.bytes()).all(|byte| byte.is_ascii_digit()) {
-        return None;
-    }
-    let seconds: i64 = whole.parse().ok()?;
-    let nanos = fraction.bytes().chain(std::iter::repeat(b'0')).take(9);
-    let nanos = nanos.fold(0, |nanos, digit| nanos * 10 + i64::from(digit - b'0'));
-    let total = seconds.checked_mul(1_000_000_000)?.checked_add(nanos)?;
-    Some(if negative { -total } else { total })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn decimals_are_exact_to_the_nanosecond() {
-        let nanos = |text| parse_time(text).map(Timestamp::as_nanos);
-        assert_eq!(nanos("1305031102.175304"), Some(1_305_031_102_175_304_000));
-        // The nearest f64 to this is 96 ns away.
-        assert_eq!(nanos("1305031102.123456789"), Some(1_305_031_102_123_456_789));
-        assert_eq!(nanos("0.0333333339"), Some(33_333_333));
-        assert_eq!(nanos("-1.5"), Some(-1_500_000_000));
-        assert_eq!(nanos("7"), Some(7_000_000_000));
-        assert_eq!(nanos("1.5e3"), Some(1_500_000_000_000));
-    }
-
-    #[test]
-    fn what_is_no_time_is_refused() {
-        for text in ["", "-", "nan", "inf", "1.2.3", "12,5", "1_0", "99999999999999999999", "rgb/0.png"] {
-            assert_eq!(parse_time(text), None, "{text}");
-        }
-    }
 
     #[test]
     fn comments_blank_lines_and_windows_line_ends_are_skipped() {

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Quaternion, Translation3};
 
 use super::error::RecordError;
 use super::list::{self, Entry, Order};
+use super::rotation::rotation;
 use crate::evaluation::StampedPose;
 
-const POSE: &str = "`timestamp tx ty tz qx qy qz qw`";
+const POSE: &str = "`timestamp tx ty tz qx qy qz qw`: seconds, metres and a unit quaternion";
 /// How far a quaternion's norm may be from 1: TUM files have four decimals, some tools three.
 const NORM_TOLERANCE: f64 = 0.01;
 
@@ -23,28 +24,15 @@ pub(super) fn read(file: &Path) -> Result<Vec<StampedPose>, RecordError> {
 }
 
 fn pose(entry: &Entry) -> Result<StampedPose, RecordError> {
-    let fault = |part: &str, problem: String| RecordError::Pose { place: entry.place_of(part), problem };
-    let mut values = [0.0; 7];
-    let mut fields = entry.rest.split_whitespace();
-    for (index, value) in values.iter_mut().enumerate() {
-        let field = fields.next().ok_or_else(|| {
-            fault(&entry.rest[entry.rest.len()..], format!("{index} of 7 numbers after the time stamp"))
-        })?;
-        *value = field
-            .parse::<f64>()
-            .ok()
-            .filter(|value| value.is_finite())
-            .ok_or_else(|| fault(field, format!("`{field}` is no finite number")))?;
-    }
-    if let Some(extra) = fields.next() {
-        return Err(fault(extra, format!("`{extra}` is one field too many")));
-    }
-    let [tx, ty, tz, qx, qy, qz, qw] = values;
-    let rotation = Quaternion::new(qw, qx, qy, qz);
-    if (rotation.norm() - 1.0).abs() > NORM_TOLERANCE {
-        return Err(fault(entry.rest, format!("the quaternion's length is {:.4}, not 1", rotation.norm())));
-    }
-    let world_from_body =
-        Isometry3::from_parts(Translation3::new(tx, ty, tz), UnitQuaternion::from_quaternion(rotation));
-    Ok(StampedPose { time: entry.time, world_from_body })
+    let [tx, ty, tz, qx, qy, qz, qw] = entry.numbers(POSE)?;
+    let quaternion = Quaternion::new(qw, qx, qy, qz);
+    let rotation = rotation(quaternion, NORM_TOLERANCE).ok_or_else(|| RecordError::Values {
+        place: entry.place_of(entry.rest),
+        problem: format!("the quaternion's length is {:.4}, not 1", quaternion.norm()),
+        wanted: POSE,
+    })?;
+    Ok(StampedPose {
+        time: entry.time,
+        world_from_body: Isometry3::from_parts(Translation3::new(tx, ty, tz), rotation),
+    })
 }

@@ -1,5 +1,4 @@
-//! A folder in the TUM RGB-D layout: `rgb.txt` and `depth.txt` list the images, `groundtruth.txt` (optional) the truth,
-//! `calibration.toml` (optional) the cameras.
+//! A recording's folder as a whole: which files there are, which images make a frame, and what comes in which order.
 
 use std::path::Path;
 
@@ -9,12 +8,13 @@ use super::calibration::{self, Body, Calibration};
 use super::error::RecordError;
 use super::frame::{FrameFiles, ImageFile};
 use super::list::{self, Order};
+use super::reading::{self, Reading};
+use super::sensor::{Latency, Sensor};
 use super::truth;
 use crate::evaluation::StampedPose;
 
 /// How far apart in time a colour and a depth image may be and still be one frame.
 const PAIR_WITHIN_MS: i64 = 20;
-const IMAGE_LINE: &str = "`timestamp filename`";
 
 /// A recording, its images still on disk.
 #[derive(Clone, Debug)]
@@ -27,6 +27,10 @@ pub struct Recording {
     pub body: Body,
     /// Its frames in time order; every image of one frame is earlier than every image of the next.
     pub frames: Vec<FrameFiles>,
+    /// What else was measured, sensor by sensor.
+    pub readings: Vec<Reading>,
+    /// How long readings are under way.
+    pub latency: Latency,
     /// The truth as recorded, in time order (a time may repeat); empty when there is none.
     pub truth: Vec<StampedPose>,
     /// What a reader should know first, one sentence each.
@@ -44,7 +48,7 @@ impl Recording {
             return Err(RecordError::NoFolder { folder: folder.to_owned() });
         }
         let mut warnings = Vec::new();
-        let Calibration { rig, body } = match calibration {
+        let Calibration { rig, body, latency } = match calibration {
             Some(file) => calibration::read(file)?,
             None if folder.join("calibration.toml").exists() => calibration::read(&folder.join("calibration.toml"))?,
             None => {
@@ -52,21 +56,70 @@ impl Recording {
                 Calibration::kinect_default()
             }
         };
-        let rgb = images(folder, "rgb.txt", "it lists the colour images, one `timestamp filename` a line")?;
-        let depth = images(folder, "depth.txt", "it lists the depth images, one `timestamp filename` a line")?;
+        let rgb = images(folder, Sensor::Colour, "it lists the colour images, one `timestamp filename` a line")?;
+        let depth = images(folder, Sensor::Depth, "it lists the depth images, one `timestamp filename` a line")?;
         let frames = pairs(&rgb, &depth);
         if frames.is_empty() {
             return Err(RecordError::NoPairs { folder: folder.to_owned(), within_ms: PAIR_WITHIN_MS });
         }
-        for (kind, count) in [("colour", rgb.len()), ("depth", depth.len())] {
-            if count > frames.len() {
-                let alone = count - frames.len();
-                warnings.push(format!("{alone} of {count} {kind} images are left out: none of the other kind is within {PAIR_WITHIN_MS} ms"));
+        let mut readings = Vec::new();
+        for (sensor, kind, mut images) in [(Sensor::Colour, "colour", rgb), (Sensor::Depth, "depth", depth)] {
+            let count = images.len();
+            images.retain(|image| !is_in_a_frame(image, sensor, &frames));
+            if images.is_empty() {
+                continue;
+            }
+            // A robot gets its images one by one and can't know which of them will have a partner.
+            let on_robot = rig.drive.is_some();
+            let (alone, fate) = (images.len(), if on_robot { "make no frame" } else { "are left out" });
+            warnings.push(format!(
+                "{alone} of {count} {kind} images {fate}: none of the other kind is within {PAIR_WITHIN_MS} ms"
+            ));
+            if on_robot {
+                readings.extend(images.into_iter().map(|image| Reading::image(sensor, image, &latency)));
             }
         }
+        readings.extend(beside_the_frames(folder, &rig, &latency, &mut warnings)?);
         let truth = truth::read(&folder.join("groundtruth.txt"))?;
-        Ok(Self { name: name_of(folder), rig, body, frames, truth, warnings })
+        Ok(Self { name: name_of(folder), rig, body, frames, readings, latency, truth, warnings })
     }
+
+    /// Every reading, in the order in which a localiser gets them.
+    pub fn stream(&self) -> Vec<Reading> {
+        let frame_images = self.frames.iter().flat_map(|FrameFiles { rgb, depth }| {
+            [(Sensor::Colour, rgb), (Sensor::Depth, depth)]
+                .map(|(sensor, image)| Reading::image(sensor, image.clone(), &self.latency))
+        });
+        let mut stream: Vec<_> = frame_images.chain(self.readings.iter().cloned()).collect();
+        stream.sort_by_key(Reading::arrival);
+        stream
+    }
+}
+
+/// What the optional lists hold.
+fn beside_the_frames(
+    folder: &Path,
+    rig: &Rig,
+    latency: &Latency,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Reading>, RecordError> {
+    let mut readings = Vec::new();
+    if folder.join(Sensor::Infrared.list()).exists() {
+        let infrared = images(folder, Sensor::Infrared, "it lists the infrared images")?;
+        readings.extend(infrared.into_iter().map(|image| Reading::image(Sensor::Infrared, image, latency)));
+    }
+    let has_odometry = folder.join(Sensor::Wheels.list()).exists();
+    if has_odometry && rig.drive.is_none() {
+        // Nobody knows what a count means then, and the file may be of another make.
+        warnings.push("odometry.txt is left out: calibration.toml has no [drive]".to_owned());
+    } else if !has_odometry && rig.drive.is_some() {
+        warnings.push("no odometry.txt: the wheels of [drive] say nothing".to_owned());
+    }
+    let counts = rig.drive.is_some().then_some(Sensor::Wheels);
+    for sensor in [Sensor::Gyro, Sensor::Accelerometer, Sensor::AmbientLight].into_iter().chain(counts) {
+        readings.extend(reading::series(folder, sensor, latency)?);
+    }
+    Ok(readings)
 }
 
 /// The folder's own name, also where the user said `.` or `..`.
@@ -75,10 +128,10 @@ fn name_of(folder: &Path) -> String {
     folder.file_name().map_or_else(|| "recording".to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
-fn images(folder: &Path, list: &str, wanted: &'static str) -> Result<Vec<ImageFile>, RecordError> {
-    let file = folder.join(list);
+fn images(folder: &Path, sensor: Sensor, wanted: &'static str) -> Result<Vec<ImageFile>, RecordError> {
+    let file = folder.join(sensor.list());
     let text = list::read(&file, wanted)?;
-    list::entries(&file, &text, IMAGE_LINE, Order::Rising)?
+    list::entries(&file, &text, sensor.line(), Order::Rising)?
         .iter()
         .map(|entry| {
             let place = || entry.place_of(entry.rest);
@@ -106,6 +159,11 @@ fn pairs(rgb: &[ImageFile], depth: &[ImageFile]) -> Vec<FrameFiles> {
             (close && mutual).then(|| FrameFiles { rgb: colour.clone(), depth: partner.clone() })
         })
         .collect()
+}
+
+fn is_in_a_frame(image: &ImageFile, sensor: Sensor, frames: &[FrameFiles]) -> bool {
+    let time = |frame: &FrameFiles| if sensor == Sensor::Colour { frame.rgb.time } else { frame.depth.time };
+    frames.binary_search_by_key(&image.time, time).is_ok()
 }
 
 /// The image nearest in time, the earlier of two that are equally near.

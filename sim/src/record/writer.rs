@@ -1,209 +1,247 @@
-//! Writes a recording: the TUM RGB-D layout with a `calibration.toml`.
+//! Writes a recording as it is measured: images at once, lists line by line. Whatever the length, hardly more is kept
+//! in memory than the images being written.
 //!
-//! Everything is written into a hidden folder beside the wanted one, which takes its name only when it is whole:
-//! a killed run leaves nothing that looks like a recording.
+//! Everything goes into a hidden folder beside the wanted one, which takes its name only when it is whole: a killed run
+//! leaves nothing that looks like a recording.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
-use nalgebra::Isometry3;
-use sunblind_estimator::camera::{CameraModel, DepthEncoding};
-use sunblind_estimator::image::{DepthImage, RgbImage};
-use sunblind_estimator::{Rig, Timestamp};
-use tempfile::TempDir;
+use sunblind_estimator::camera::DepthEncoding;
+use sunblind_estimator::{Measurement, MeasurementData, Timestamp};
 use thiserror::Error;
 
+use super::calibration::{Body, Calibration};
+use super::sensor::{Latency, Sensor};
+use super::stamp::decimal_seconds;
 use crate::evaluation::StampedPose;
+use crate::new_folder::{FolderError, Kind, NewFolder};
 
-/// What every recording holds; a folder with all of these may be replaced by a new recording.
-const MARKS: [&str; 3] = ["rgb.txt", "depth.txt", "calibration.toml"];
+static RECORDING: Kind =
+    Kind { whose: "a recording's", mark: "a folder with rgb.txt, depth.txt and calibration.toml", is: is_recording };
 
-/// A recording being written. Frames may come in any order and from any thread.
+fn is_recording(folder: &Path) -> bool {
+    ["rgb.txt", "depth.txt", "calibration.toml"].iter().all(|mark| folder.join(mark).is_file())
+}
+
+const TRUTH: &str = "groundtruth.txt";
+/// What every recording has, even without an image.
+const CAMERAS: [Sensor; 2] = [Sensor::Colour, Sensor::Depth];
+
+/// A recording being written.
+///
+/// Images may come in any order and from any thread; the readings of every other sensor, and the truth, in the order of
+/// their time.
 pub struct RecordingWriter {
-    out: PathBuf,
-    /// Deleted with all it holds when the writer is dropped.
-    beside: TempDir,
-    folder: PathBuf,
+    folder: NewFolder,
+    depth: DepthEncoding,
+    body: Body,
+    latency: Latency,
+    /// The images that are on disk.
+    images: Mutex<BTreeSet<(Sensor, Timestamp)>>,
+    series: Mutex<BTreeMap<String, Series>>,
+}
+
+/// A list that grows.
+struct Series {
+    file: BufWriter<File>,
+    last: Timestamp,
 }
 
 impl RecordingWriter {
-    /// Begins a recording that will be at `out`, made with the cameras of `rig`.
+    /// Begins a recording that will be at `out`, made with sensors as `calibration` says.
     ///
     /// # Errors
     /// When `out` holds something else than a recording, or the disk refuses.
-    pub fn create(out: &Path, rig: &Rig) -> Result<Self, WriteError> {
-        refuse_foreign(out)?;
-        let parent = match out.parent() {
-            Some(parent) if parent != Path::new("") => parent,
-            _ => Path::new("."),
+    pub fn create(out: &Path, calibration: &Calibration) -> Result<Self, WriteError> {
+        let writer = Self {
+            folder: NewFolder::begin(out, &RECORDING)?,
+            depth: calibration.rig.depth.encoding,
+            body: calibration.body,
+            latency: calibration.latency.clone(),
+            images: Mutex::default(),
+            series: Mutex::default(),
         };
-        fs::create_dir_all(parent).map_err(|source| WriteError::io(parent, source))?;
-        let beside = tempfile::Builder::new()
-            .prefix(".recording-")
-            .tempdir_in(parent)
-            .map_err(|source| WriteError::io(parent, source))?;
-        // A folder inside, because the temporary one itself is closed to other users.
-        let folder = beside.path().join("recording");
-        for images in ["rgb", "depth"] {
-            let path = folder.join(images);
-            fs::create_dir_all(&path).map_err(|source| WriteError::io(&path, source))?;
+        for sensor in CAMERAS {
+            writer.make_folder(sensor)?;
         }
-        let writer = Self { out: out.to_owned(), beside, folder };
-        writer.text("calibration.toml", &calibration_toml(rig)?)?;
+        writer.file("calibration.toml", calibration.to_string().as_bytes())?;
         Ok(writer)
     }
 
-    /// Writes the two images captured at `time`.
+    /// Writes one measurement.
     ///
     /// # Errors
-    /// When the disk refuses.
-    pub fn write_frame(&self, time: Timestamp, rgb: &RgbImage, depth: &DepthImage) -> Result<(), WriteError> {
-        let bytes: Vec<u8> = rgb.pixels().iter().flatten().copied().collect();
-        self.png(&image_name("rgb", time), &bytes, rgb.size(), ExtendedColorType::Rgb8)?;
-        // The encoder takes 16-bit samples in the machine's own byte order.
-        let bytes: Vec<u8> = depth.pixels().iter().flat_map(|value| value.to_ne_bytes()).collect();
-        self.png(&image_name("depth", time), &bytes, depth.size(), ExtendedColorType::L16)
+    /// When the disk refuses, or the measurement can't be told by a recording: it arrived at another time than the
+    /// calibration's latency says, or was captured no later than the one before.
+    pub fn write(&self, measurement: &Measurement) -> Result<(), WriteError> {
+        let Measurement { captured_at: time, available_at, data } = measurement;
+        let sensor = Sensor::of(data);
+        if self.latency.available_at(sensor, *time) != *available_at {
+            return Err(WriteError::Latency { sensor: sensor.stem(), time: *time });
+        }
+        match data {
+            MeasurementData::Rgb(image) => {
+                let bytes: Vec<u8> = image.pixels().as_flattened().to_vec();
+                self.image(sensor, *time, &bytes, image.size(), ExtendedColorType::Rgb8)
+            }
+            MeasurementData::Infrared(image) | MeasurementData::Depth(image) => {
+                // The encoder takes 16-bit samples in the machine's own byte order.
+                let bytes: Vec<u8> = image.pixels().iter().flat_map(|value| value.to_ne_bytes()).collect();
+                self.image(sensor, *time, &bytes, image.size(), ExtendedColorType::L16)
+            }
+            MeasurementData::WheelTicks { left, right } => {
+                self.line(&sensor.list(), sensor.line(), *time, &format!("{left} {right}"))
+            }
+            MeasurementData::Gyro(vector) | MeasurementData::Accelerometer(vector) => {
+                self.line(&sensor.list(), sensor.line(), *time, &spaced(vector.as_slice()))
+            }
+            MeasurementData::AmbientLight(illuminance) => {
+                self.line(&sensor.list(), sensor.line(), *time, &spaced(&[*illuminance]))
+            }
+        }
     }
 
-    /// Writes the lists and puts the recording in its place. `truth` holds the depth camera's pose at each frame that
-    /// was written, in time order.
+    /// Writes where the calibration's body truly was.
+    ///
+    /// # Errors
+    /// When the disk refuses, or the pose is no later than the one before.
+    pub fn write_truth(&self, truth: &StampedPose) -> Result<(), WriteError> {
+        let t = truth.world_from_body.translation.vector;
+        let q = truth.world_from_body.rotation.coords;
+        let head =
+            format!("where {} truly was, world from body\n# timestamp tx ty tz qx qy qz qw", self.body.in_words());
+        self.line(TRUTH, &head, truth.time, &spaced(&[t.x, t.y, t.z, q.x, q.y, q.z, q.w]))
+    }
+
+    /// Writes the lists of the images and puts the recording in its place.
     ///
     /// # Errors
     /// When the disk refuses; then what was at the wanted place before is still there.
-    pub fn finish(self, truth: &[StampedPose]) -> Result<(), WriteError> {
-        let list = |head: &str, images: &str| {
-            truth.iter().fold(format!("# {head}\n# timestamp filename\n"), |mut list, pose| {
-                let _ = writeln!(list, "{} {}", stamp(pose.time), image_name(images, pose.time));
-                list
-            })
-        };
-        self.text("rgb.txt", &list("colour images", "rgb"))?;
-        self.text("depth.txt", &list("depth maps, 16-bit PNG, 5000 per metre, 0 = no value", "depth"))?;
-        self.text("groundtruth.txt", &truth_lines(truth))?;
-        self.take_its_place()
-    }
-
-    fn take_its_place(self) -> Result<(), WriteError> {
-        let failed = |source| WriteError::io(&self.out, source);
-        refuse_foreign(&self.out)?;
-        let previous = self.beside.path().join("previous");
-        let replaces = self.out.exists();
-        if replaces {
-            fs::rename(&self.out, &previous).map_err(failed)?;
+    pub fn finish(self) -> Result<(), WriteError> {
+        for (name, mut series) in std::mem::take(&mut *lock(&self.series)) {
+            series.file.flush().map_err(|source| WriteError::io(&self.folder.path().join(name), source))?;
         }
-        if let Err(source) = fs::rename(&self.folder, &self.out) {
-            if replaces {
-                fs::rename(&previous, &self.out).map_err(failed)?;
+        let images = std::mem::take(&mut *lock(&self.images));
+        let listed: BTreeSet<Sensor> = images.iter().map(|(sensor, _)| *sensor).chain(CAMERAS).collect();
+        for sensor in listed {
+            let mut list = format!("# {}\n# timestamp filename\n", self.describe(sensor));
+            for (_, time) in images.iter().filter(|(of, _)| *of == sensor) {
+                let _ = writeln!(list, "{} {}", decimal_seconds(*time), image_name(sensor, *time));
             }
-            return Err(failed(source));
+            self.file(&sensor.list(), list.as_bytes())?;
         }
-        self.beside.close().map_err(failed)
+        Ok(self.folder.publish()?)
     }
 
-    fn png(&self, name: &str, bytes: &[u8], size: (usize, usize), colour: ExtendedColorType) -> Result<(), WriteError> {
+    /// What a camera's images are.
+    fn describe(&self, sensor: Sensor) -> String {
+        match (sensor, self.depth) {
+            (Sensor::Depth, DepthEncoding::Linear { units_per_metre }) => {
+                format!("depth images, 16-bit PNG, {units_per_metre} per metre, 0 = no value")
+            }
+            (Sensor::Depth, DepthEncoding::KinectDisparity { .. }) => {
+                "depth images, 16-bit PNG, raw 11-bit disparity, 2047 = no value".to_owned()
+            }
+            (Sensor::Infrared, _) => "infrared images, 16-bit PNG, 10-bit values".to_owned(),
+            _ => "colour images, 8-bit PNG".to_owned(),
+        }
+    }
+
+    fn image(
+        &self,
+        sensor: Sensor,
+        time: Timestamp,
+        bytes: &[u8],
+        (width, height): (usize, usize),
+        colour: ExtendedColorType,
+    ) -> Result<(), WriteError> {
+        if !lock(&self.images).insert((sensor, time)) {
+            return Err(WriteError::NotLater { list: sensor.list(), time });
+        }
+        self.make_folder(sensor)?;
+        let name = image_name(sensor, time);
         let mut png = Vec::with_capacity(bytes.len());
         PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive)
-            .write_image(bytes, size.0 as u32, size.1 as u32, colour)
-            .map_err(|source| WriteError::Encode { file: self.folder.join(name), source })?;
-        self.bytes(name, &png)
+            .write_image(bytes, width as u32, height as u32, colour)
+            .map_err(|source| WriteError::Encode { file: self.folder.path().join(&name), source })?;
+        self.file(&name, &png)
     }
 
-    fn text(&self, name: &str, text: &str) -> Result<(), WriteError> {
-        self.bytes(name, text.as_bytes())
+    /// Appends a line to a list, which is begun with `head` where it is new.
+    fn line(&self, list: &str, head: &str, time: Timestamp, values: &str) -> Result<(), WriteError> {
+        let path = self.folder.path().join(list);
+        let failed = |source| WriteError::io(&path, source);
+        let mut all = lock(&self.series);
+        let series = match all.get_mut(list) {
+            Some(series) if time <= series.last => return Err(WriteError::NotLater { list: list.to_owned(), time }),
+            Some(series) => series,
+            None => {
+                let mut file = BufWriter::new(File::create(&path).map_err(failed)?);
+                writeln!(file, "# {head}").map_err(failed)?;
+                all.entry(list.to_owned()).or_insert(Series { file, last: time })
+            }
+        };
+        series.last = time;
+        writeln!(series.file, "{} {values}", decimal_seconds(time)).map_err(failed)
     }
 
-    fn bytes(&self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
-        let path = self.folder.join(name);
+    fn make_folder(&self, sensor: Sensor) -> Result<(), WriteError> {
+        let folder = self.folder.path().join(sensor.stem());
+        fs::create_dir_all(&folder).map_err(|source| WriteError::io(&folder, source))
+    }
+
+    fn file(&self, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
+        let path = self.folder.path().join(name);
         fs::write(&path, bytes).map_err(|source| WriteError::io(&path, source))
     }
 }
 
-/// Lets through what may be written to: nothing, an empty folder, or a recording.
-fn refuse_foreign(out: &Path) -> Result<(), WriteError> {
-    if !out.exists() {
-        return Ok(());
-    }
-    let is_recording = MARKS.iter().all(|mark| out.join(mark).is_file());
-    let is_empty = || fs::read_dir(out).map(|mut entries| entries.next().is_none());
-    match is_recording || is_empty().map_err(|source| WriteError::io(out, source))? {
-        true => Ok(()),
-        false => Err(WriteError::NotARecording { folder: out.to_owned() }),
-    }
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Seconds with microseconds, as the TUM files have them.
-fn stamp(time: Timestamp) -> String {
-    format!("{:.6}", time.as_secs())
+fn image_name(sensor: Sensor, time: Timestamp) -> String {
+    format!("{}/{}.png", sensor.stem(), decimal_seconds(time))
 }
 
-fn image_name(folder: &str, time: Timestamp) -> String {
-    format!("{folder}/{}.png", stamp(time))
-}
-
-fn truth_lines(truth: &[StampedPose]) -> String {
-    let mut lines =
-        "# ground truth of the depth camera: world from camera\n# timestamp tx ty tz qx qy qz qw\n".to_owned();
-    for StampedPose { time, world_from_body } in truth {
-        let t = world_from_body.translation.vector;
-        let q = world_from_body.rotation.coords;
-        let _ = writeln!(
-            lines,
-            "{} {:.6} {:.6} {:.6} {:.8} {:.8} {:.8} {:.8}",
-            stamp(*time),
-            t.x,
-            t.y,
-            t.z,
-            q.x,
-            q.y,
-            q.z,
-            q.w
-        );
-    }
-    lines
-}
-
-fn calibration_toml(rig: &Rig) -> Result<String, WriteError> {
-    let DepthEncoding::Linear { units_per_metre } = rig.depth.encoding else {
-        return Err(WriteError::RawDepth);
-    };
-    let Isometry3 { rotation, translation } = rig.colour_from_depth;
-    Ok(format!(
-        "registered = {}\n\n[colour]\n{}\n[depth]\n{}units_per_m = {units_per_metre:?}\n\n\
-         [colour_from_depth]\ntranslation_m = {:?}\nrotation_xyzw = {:?}\n\n\
-         [truth]\ncamera = \"depth\"\n",
-        rig.depth.registered_to_colour,
-        camera_toml(&rig.colour),
-        camera_toml(&rig.depth.model),
-        translation.vector.as_slice(),
-        rotation.coords.as_slice(),
-    ))
-}
-
-fn camera_toml(camera: &CameraModel) -> String {
-    let CameraModel { width, height, fx, fy, cx, cy, distortion: d } = camera;
-    format!(
-        "width_px = {width}\nheight_px = {height}\nfx_px = {fx:?}\nfy_px = {fy:?}\ncx_px = {cx:?}\ncy_px = {cy:?}\n\
-         distortion = {:?}   # k1 k2 p1 p2 k3\n",
-        [d.k1, d.k2, d.p1, d.p2, d.k3]
-    )
+/// Numbers with as many digits as bring their bits back.
+fn spaced(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
 }
 
 /// A recording that could not be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The place is taken by something that is not ours to delete.
-    #[error("{}: holds something that is no recording; give another folder or an empty one", folder.display())]
-    NotARecording {
-        /// The folder.
-        folder: PathBuf,
+    /// The place is taken, or not writable.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A measurement that was longer or shorter under way than the calibration says.
+    #[error(
+        "{sensor}: what was captured at {} s did not arrive after the latency that the calibration gives it; a recording \
+         has one latency a sensor",
+        time.as_secs()
+    )]
+    Latency {
+        /// Its name in files.
+        sensor: &'static str,
+        /// When it was captured.
+        time: Timestamp,
     },
-    /// The layout has no raw disparity.
-    #[error("raw disparity can't be written; give the depth camera a linear encoding")]
-    RawDepth,
+    /// A list's times must rise.
+    #[error("{list}: {} s is not later than the time before it", time.as_secs())]
+    NotLater {
+        /// The list.
+        list: String,
+        /// The time.
+        time: Timestamp,
+    },
     /// The disk refuses.
     #[error("{}: {source}", path.display())]
     Io {
@@ -229,59 +267,4 @@ impl WriteError {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn write(out: &Path, seconds: &[f64]) -> Result<(), WriteError> {
-        let writer = RecordingWriter::create(out, &Rig::kinect_default())?;
-        let mut truth = Vec::new();
-        for &seconds in seconds {
-            let time = Timestamp::from_secs(seconds).unwrap();
-            writer.write_frame(time, &RgbImage::filled(4, 3, [1, 2, 3]), &DepthImage::filled(4, 3, 5001))?;
-            truth.push(StampedPose { time, world_from_body: Isometry3::translation(1.0, 2.0, seconds) });
-        }
-        writer.finish(&truth)
-    }
-
-    #[test]
-    fn the_layout_is_the_documented_one() {
-        let scratch = tempfile::tempdir().unwrap();
-        let out = scratch.path().join("deep/demo");
-        write(&out, &[0.0, 1.0 / 30.0]).unwrap();
-        let read = |name| fs::read_to_string(out.join(name)).unwrap();
-        assert!(read("rgb.txt").ends_with("\n0.033333 rgb/0.033333.png\n"));
-        assert!(read("groundtruth.txt").contains("\n0.033333 1.000000 2.000000 0.033333 0.0"));
-        let depth = image::open(out.join("depth/0.000000.png")).unwrap().into_luma16();
-        assert_eq!(depth.get_pixel(3, 2).0, [5001]);
-        let calibration: toml::Table = read("calibration.toml").parse().unwrap();
-        assert_eq!(calibration["depth"]["units_per_m"].as_float(), Some(5000.0));
-        assert_eq!(calibration["colour"]["fx_px"].as_float(), Some(525.0));
-        assert_eq!(calibration["colour_from_depth"]["rotation_xyzw"][3].as_float(), Some(1.0));
-        assert_eq!(fs::read_dir(out.parent().unwrap()).unwrap().count(), 1, "something was left beside");
-    }
-
-    #[test]
-    fn a_recording_is_replaced_whole() {
-        let scratch = tempfile::tempdir().unwrap();
-        let out = scratch.path().join("demo");
-        write(&out, &[0.0, 0.5]).unwrap();
-        write(&out, &[0.25]).unwrap();
-        assert!(!out.join("rgb/0.500000.png").exists() && out.join("rgb/0.250000.png").exists());
-    }
-
-    #[test]
-    fn what_is_no_recording_is_left_alone() {
-        let scratch = tempfile::tempdir().unwrap();
-        fs::write(scratch.path().join("thesis.tex"), "years of work").unwrap();
-        assert!(matches!(write(scratch.path(), &[0.0]), Err(WriteError::NotARecording { .. })));
-        assert!(scratch.path().join("thesis.tex").exists());
-    }
-
-    #[test]
-    fn an_unfinished_recording_leaves_nothing() {
-        let scratch = tempfile::tempdir().unwrap();
-        let out = scratch.path().join("demo");
-        drop(RecordingWriter::create(&out, &Rig::kinect_default()).unwrap());
-        assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 0);
-    }
-}
+mod tests;

@@ -5,9 +5,9 @@ use std::io;
 use serde::Serialize;
 use sunblind_estimator::{Health, Mode};
 
-use super::trajectory::decimal_seconds;
 use super::uncertainty::{position_covariance, rotation_covariance, sigmas};
 use crate::evaluation::{position_error, rotation_error, true_pose_at};
+use crate::record::stamp::decimal_seconds;
 use crate::runner::log::{FrameLog, RunLog, Track};
 
 /// The columns. Sigmas are standard deviations along (of rotations: about) the world's axes.

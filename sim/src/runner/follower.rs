@@ -1,66 +1,91 @@
-//! Follows one localiser through a recording and writes down what it says.
+//! Follows one localiser through a stream of measurements and writes down what it says.
 
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 use sunblind_estimator::geometry::adjoint;
 use sunblind_estimator::odometry::FeatureTrack;
-use sunblind_estimator::{Disposition, Estimate, Measurement, MeasurementData, Rejection, Timestamp};
+use sunblind_estimator::{
+    Disposition, Estimate, Health, Localizer, Measurement, MeasurementData, Rejection, Streams, Timestamp,
+};
 
 use super::driven::Driven;
 use super::log::{FrameCounts, FrameLog, Track};
-use crate::evaluation::StampedPose;
-use crate::record::Frame;
+use crate::evaluation::{StampedPose, true_pose_at};
 
-/// A localiser and its log so far, in the localiser's own odom frame.
+/// A localiser and its logs so far, each in its own odom frame.
 pub(super) struct Follower {
     driven: Driven,
-    frames: Vec<FrameLog>,
+    /// One a track.
+    logs: Vec<Vec<FrameLog>>,
     estimates: Sha256,
     newest_report: Option<Timestamp>,
-    refusals: Vec<Rejection>,
+    /// Whether its newest report is of the frame that was logged last.
+    reported: bool,
+    refused: usize,
+    first_refusal: Option<Rejection>,
 }
 
 impl Follower {
     pub fn new(driven: Driven) -> Self {
-        Self { driven, frames: Vec::new(), estimates: Sha256::new(), newest_report: None, refusals: Vec::new() }
+        let logs = driven.tracks.iter().map(|_| Vec::new()).collect();
+        Self {
+            driven,
+            logs,
+            estimates: Sha256::new(),
+            newest_report: None,
+            reported: false,
+            refused: 0,
+            first_refusal: None,
+        }
     }
 
-    /// Hands one frame over and writes down the answer.
-    pub fn take(&mut self, frame: &Frame) {
-        let wanted = self.driven.localizer().wanted_streams();
-        let rgb = wanted.rgb.then(|| (frame.rgb_time, MeasurementData::Rgb(frame.rgb.clone())));
-        let depth = wanted.depth.then(|| (frame.depth_time, MeasurementData::Depth(frame.depth.clone())));
-        let mut images: Vec<_> = [rgb, depth].into_iter().flatten().collect();
-        images.sort_by_key(|(time, _)| *time);
-        for (time, data) in images {
-            let measurement = Measurement { captured_at: time, available_at: time, data };
-            match self.driven.localizer_mut().handle(measurement) {
-                // That no motion was found is part of the estimate's health.
-                Disposition::Used | Disposition::Rejected(Rejection::NoMotion(_)) => {}
-                Disposition::Rejected(reason) => self.refusals.push(reason),
+    /// The localiser itself.
+    pub fn localizer(&self) -> &dyn Localizer {
+        self.driven.localizer()
+    }
+
+    /// Hands one measurement over, unless it is an image that isn't wanted.
+    pub fn take(&mut self, measurement: &Measurement) {
+        if !is_wanted(&measurement.data, self.driven.localizer().wanted_streams()) {
+            return;
+        }
+        match self.driven.localizer_mut().handle(measurement.clone()) {
+            // That no motion was found is part of the estimate's health, and nobody needs every sensor.
+            Disposition::Used | Disposition::Rejected(Rejection::NoMotion(_) | Rejection::Unsupported) => {}
+            Disposition::Rejected(reason) => {
+                self.refused += 1;
+                self.first_refusal.get_or_insert(reason);
             }
         }
-        let estimate = self.driven.localizer().estimate();
-        digest(&mut self.estimates, &estimate);
+    }
+
+    /// Writes down what it says once it has the frame of `time`.
+    pub fn log(&mut self, time: Timestamp) {
+        let estimates = self.driven.estimates();
         let counts = self.counts();
-        self.frames.push(FrameLog {
-            time: frame.rgb_time,
-            world_from_body: estimate.odom_from_robot,
-            covariance: estimate.covariance,
-            mode: estimate.mode,
-            health: estimate.health,
-            counts,
-            stage_ms: self.driven.take_stage_ms(),
-        });
+        self.reported = counts.is_some();
+        let stage_ms = self.driven.take_stage_ms();
+        for ((estimate, track), log) in estimates.into_iter().zip(&self.driven.tracks).zip(&mut self.logs) {
+            digest(&mut self.estimates, &estimate);
+            let Some(time) = instant(&estimate, time, log.last()) else { continue };
+            log.push(FrameLog {
+                time,
+                world_from_body: estimate.odom_from_robot,
+                covariance: estimate.covariance,
+                mode: estimate.mode,
+                health: estimate.health,
+                counts: counts.filter(|_| track.is_visual),
+                stage_ms: if track.is_visual { stage_ms } else { [0.0; 4] },
+            });
+        }
     }
 
-    /// The feature tracks of the frame that was taken last; none when it gave no report.
+    /// The feature tracks of the frame that was logged last; none when it gave no report.
     pub fn feature_tracks(&self) -> Vec<FeatureTrack> {
-        let reported = self.frames.last().is_some_and(|frame| frame.counts.is_some());
-        self.driven.last_frame().filter(|_| reported).map(|report| report.tracks.clone()).unwrap_or_default()
+        self.driven.last_frame().filter(|_| self.reported).map(|report| report.tracks.clone()).unwrap_or_default()
     }
 
-    /// What the localiser counted in the frame that it was just given; `None` when its newest report is an older one.
+    /// What the localiser counted in the newest frame; `None` when its newest report is of an older one.
     fn counts(&mut self) -> Option<FrameCounts> {
         let report = self.driven.last_frame()?;
         if self.newest_report.replace(report.time) == Some(report.time) {
@@ -75,9 +100,9 @@ impl Follower {
         })
     }
 
-    /// How many frames it was given.
-    pub fn frames_taken(&self) -> usize {
-        self.frames.len()
+    /// The instants that it has spoken of, track by track.
+    pub fn times(&self) -> impl Iterator<Item = impl Iterator<Item = Timestamp>> {
+        self.logs.iter().map(|log| log.iter().map(|entry| entry.time))
     }
 
     /// SHA-256 over every estimate so far.
@@ -85,24 +110,45 @@ impl Follower {
         self.estimates.clone().finalize()
     }
 
-    /// One sentence when images were refused.
+    /// One sentence when measurements were refused.
     pub fn warning(&self) -> Option<String> {
-        let first = self.refusals.first()?;
-        Some(format!("{}: {} images were refused, the first as {first:?}", self.driven.name, self.refusals.len()))
+        let first = self.first_refusal.as_ref()?;
+        Some(format!("{}: {} measurements were refused, the first as {first:?}", self.driven.name(), self.refused))
     }
 
-    /// The finished log, placed in the world of `truth` by the first frame that the truth covers.
-    pub fn finish(mut self, truth: &[StampedPose]) -> Track {
-        let placed = truth.first().and_then(|truth| {
-            let estimate = self.frames.iter().find(|frame| frame.time == truth.time)?;
-            Some(truth.world_from_body * estimate.world_from_body.inverse())
+    /// The finished logs, each placed in the world of `truth` by the first instant that the truth covers.
+    pub fn finish(self, truth: &[StampedPose]) -> Vec<Track> {
+        let parameters = self.driven.parameters;
+        let finished = self.driven.tracks.into_iter().zip(self.logs).map(|(track, mut frames)| {
+            let placed = frames
+                .iter()
+                .find_map(|frame| Some(true_pose_at(truth, frame.time)? * frame.world_from_body.inverse()));
+            if let Some(world_from_odom) = placed {
+                place(&mut frames, &world_from_odom);
+            }
+            Track { name: track.name, label: track.label, parameters: parameters.clone(), frames }
         });
-        if let Some(world_from_odom) = placed {
-            place(&mut self.frames, &world_from_odom);
-        }
-        let Driven { name, label, parameters, .. } = self.driven;
-        Track { name, label, parameters, frames: self.frames }
+        finished.collect()
     }
+}
+
+fn is_wanted(data: &MeasurementData, wanted: Streams) -> bool {
+    match data {
+        MeasurementData::Rgb(_) => wanted.rgb,
+        MeasurementData::Infrared(_) => wanted.infrared,
+        MeasurementData::Depth(_) => wanted.depth,
+        _ => true,
+    }
+}
+
+/// When an estimate is of: it is held against the truth of that instant, not of the frame's, since wheels may have
+/// carried it on, or not caught up with the frame yet. A pose that was logged before is not logged again unless it is
+/// lost; then it stands for the frame.
+fn instant(estimate: &Estimate, frame: Timestamp, last: Option<&FrameLog>) -> Option<Timestamp> {
+    let is_new = |time: &Timestamp| last.is_none_or(|last| *time > last.time);
+    let known = estimate.time.filter(is_new);
+    let stands_for_the_frame = estimate.time.is_none() || estimate.health != Health::Good;
+    known.or(Some(frame).filter(|_| stands_for_the_frame).filter(is_new))
 }
 
 fn place(frames: &mut [FrameLog], world_from_odom: &Isometry3<f64>) {

@@ -7,19 +7,19 @@ use sunblind_estimator::{Health, Mode, Timestamp};
 
 use crate::evaluation::StampedPose;
 
-/// One replay of one recording by one or more localisers.
+/// One run of one or more localisers through one recording or simulation.
 pub struct RunLog {
     /// The recording's name: its folder's.
     pub recording: String,
     /// What a reader should know first, one sentence each ("no calibration.toml: the Kinect's defaults are assumed").
     pub warnings: Vec<String>,
-    /// The truth at the frames' times (interpolated), in time order; empty when the recording has none.
+    /// The truth at the times of all tracks (interpolated), in time order; empty when the recording has none.
     pub truth: Vec<StampedPose>,
-    /// One a localiser; the first is the one that is judged.
+    /// What the localisers said; the first is the one that is judged.
     pub tracks: Vec<Track>,
     /// Images of a few instants.
     pub snapshots: Vec<Snapshot>,
-    /// SHA-256 over every image and estimate, hex.
+    /// SHA-256 over everything that was measured and every estimate, hex.
     pub digest: String,
     /// Wall time of the run, seconds.
     pub wall: f64,
@@ -27,7 +27,7 @@ pub struct RunLog {
     pub cpu: f64,
 }
 
-/// What one localiser said, frame by frame.
+/// One of a localiser's estimates, frame by frame.
 pub struct Track {
     /// File stem and key in `summary.json`: `mvo`, `mvo_paper`.
     pub name: String,
@@ -35,13 +35,13 @@ pub struct Track {
     pub label: String,
     /// Its effective parameters as TOML.
     pub parameters: String,
-    /// One a frame, in time order.
+    /// One a frame, in time order; none for a frame by which a track that rests on wheels had not moved on.
     pub frames: Vec<FrameLog>,
 }
 
 /// One frame as one localiser saw it.
 pub struct FrameLog {
-    /// The frame's instant.
+    /// The instant that the pose is of: the frame's, or where wheels had carried the pose when the frame was worked on.
     pub time: Timestamp,
     /// Its pose, in the truth's world (placed there by the first pose) or, without truth, in the odom frame.
     pub world_from_body: Isometry3<f64>,

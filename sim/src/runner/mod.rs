@@ -1,6 +1,6 @@
-//! Drives localisers through a recording: the only caller of the estimator.
+//! Drives localisers through what was measured: the only caller of the estimator.
 //!
-//! [`replay`] is the way in. A localiser of your own is scored in a few lines:
+//! [`replay`] is the way in for a recording; a [`Session`] takes measurements as they come, from anywhere. A localiser of your own is scored in a few lines:
 //!
 //! ```no_run
 //! use sunblind_sim::evaluation::evaluate;
@@ -15,12 +15,16 @@
 //! # }
 //! ```
 
+mod digest;
 mod driven;
 mod follower;
 pub mod log;
+mod pairing;
 mod replay;
+mod session;
 mod stage_clock;
 mod truth;
 
 pub use driven::Driven;
 pub use replay::{ReplayError, ReplayOptions, replay};
+pub use session::Session;

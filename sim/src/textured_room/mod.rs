@@ -34,16 +34,18 @@ mod texture;
 mod things;
 
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 use sunblind_estimator::image::{DepthImage, RgbImage};
-use sunblind_estimator::{Rig, Timestamp};
+use sunblind_estimator::{Measurement, MeasurementData, Rig, Timestamp};
 
 use crate::evaluation::StampedPose;
 use crate::random::stream;
 use crate::record::writer::{RecordingWriter, WriteError};
+use crate::record::{Body, Calibration, Latency};
 use colour::{ColourCamera, SAMPLES};
 use depth::DepthSensor;
 use layout::furnished_room;
@@ -122,7 +124,9 @@ impl Default for TexturedRoom {
 /// # Errors
 /// When `out` holds something else than a recording, or the disk refuses; then nothing is left behind.
 pub fn record(scenario: &Scenario, out: &Path, progress: impl Fn(usize, usize) + Sync) -> Result<(), WriteError> {
-    let writer = RecordingWriter::create(out, &rig())?;
+    // The truth is the depth camera's.
+    let calibration = Calibration { rig: rig(), body: Body::Depth, latency: Latency::default() };
+    let writer = RecordingWriter::create(out, &calibration)?;
     let room = TexturedRoom::new();
     let (done, frames) = (AtomicUsize::new(0), scenario.frames());
     // Whole frames in parallel: no thread waits for another, and drawing overlaps with compressing.
@@ -131,10 +135,13 @@ pub fn record(scenario: &Scenario, out: &Path, progress: impl Fn(usize, usize) +
         .map(|index| {
             let time = Timestamp::from_nanos((scenario.time_of(index) * 1e9).round() as i64);
             let Frame { rgb, depth, world_from_depth } = room.frame(scenario, index);
-            writer.write_frame(time, &rgb, &depth)?;
+            for data in [MeasurementData::Rgb(Arc::new(rgb)), MeasurementData::Depth(Arc::new(depth))] {
+                writer.write(&Measurement { captured_at: time, available_at: time, data })?;
+            }
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, frames);
             Ok(StampedPose { time, world_from_body: world_from_depth })
         })
         .collect::<Result<Vec<_>, WriteError>>()?;
-    writer.finish(&truth)
+    truth.iter().try_for_each(|pose| writer.write_truth(pose))?;
+    writer.finish()
 }

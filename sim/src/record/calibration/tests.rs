@@ -88,3 +88,48 @@ fn registered_depth_has_the_colour_images_size() {
     let text = text.replace("registered = false", "registered = true");
     assert!(parse(&text).err().unwrap().problem.contains("write registered = false"));
 }
+
+/// A robot whose every number has as many digits as a number can have.
+fn robot() -> Calibration {
+    let mut rig = parse(KINECT).ok().unwrap().rig;
+    rig.depth.encoding = DepthEncoding::KinectDisparity { offset: 1090.1, baseline: 0.1 + 0.2 };
+    rig.colour_from_depth =
+        Isometry3::new(nalgebra::Vector3::new(-0.1, 1e-7, 1.0 / 3.0), nalgebra::Vector3::new(0.1, 0.2, 0.3));
+    rig.robot_from_colour =
+        Isometry3::new(nalgebra::Vector3::new(0.1, 0.0, 0.6), nalgebra::Vector3::new(-1.2, 1.1, -1.3));
+    rig.drive = Some(Drive { ticks_per_metre: 138_000.7, effective_track: 0.588 });
+    let latency = Latency::default().with(Sensor::Depth, 2.0 / 30.0).with(Sensor::Wheels, 1e-9);
+    Calibration { rig, body: Body::Robot, latency }
+}
+
+#[test]
+fn what_is_written_is_read_bit_for_bit() {
+    let camera = parse(KINECT).ok().unwrap();
+    for calibration in [robot(), Calibration::kinect_default(), camera] {
+        let read = parse(&calibration.to_string()).ok().unwrap();
+        assert_eq!(read, calibration, "{calibration}");
+        let bits = |calibration: &Calibration| {
+            let transforms = [calibration.rig.colour_from_depth, calibration.rig.robot_from_colour];
+            transforms.map(|transform| transform.rotation.coords.map(f64::to_bits))
+        };
+        assert_eq!(bits(&read), bits(&calibration));
+    }
+}
+
+#[test]
+fn wheels_and_latencies_are_checked() {
+    let text = robot().to_string();
+    for (from, to, expected) in [
+        ("ticks_per_m = 138000.7", "ticks_per_m = 0", "ticks_per_m is 0; write a positive number, such as 138000.0"),
+        ("effective_track_m = 0.588", "effective_track_m = 1e300", "drive: effective_track_m is 1"),
+        ("effective_track_m = 0.588", "", "missing field `effective_track_m`"),
+        ("odometry_s = 1e-9", "odometry_s = -1.0", "odometry_s is -1; write 0 to 60 s"),
+        ("odometry_s = 1e-9", "wheels_s = 1.0", "unknown variant `wheels_s`, expected one of `gyro_s`"),
+        ("[mount]\nrobot_from_colour", "#", "[drive] needs to know where the camera sits on the robot; write [mount]"),
+    ] {
+        assert!(text.contains(from), "{from} in {text}");
+        let Fault { span, problem } = parse(&text.replacen(from, to, 1)).expect_err("a fault");
+        assert!(problem.starts_with(expected), "{to:?}: {problem}");
+        assert!(span.start > text.find("[colour_from_depth]").unwrap(), "{to:?} at {span:?}");
+    }
+}
