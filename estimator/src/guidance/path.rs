@@ -10,6 +10,8 @@ use crate::fusion::wrap_angle;
 /// A corner sharper than this, radians (about 9°), is driven by stopping and turning on the spot; a flatter one is
 /// rounded by the robot itself.
 const SHARP_CORNER: f64 = 0.15;
+/// Places closer than this are one, metres.
+pub(super) const SAME_PLACE: f64 = 1e-6;
 
 /// One point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +26,8 @@ pub struct PathPoint {
     pub curvature: f64,
 }
 
-/// A path in the plane, made by one of its shapes ([`Path::straight`], [`Path::spline`], [`Path::circle`],
-/// [`Path::figure_eight`]). It may cross itself, so a point of it is asked for by its arc length.
+/// A path in the plane, made by one of its shapes ([`Path::straight`], [`Path::rounded`],
+/// [`Path::spline`], [`Path::circle`], [`Path::figure_eight`]). It may cross itself, so a point of it is asked for by its arc length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// At least two, `along` never falling; at a corner two points share one place.
@@ -40,6 +42,23 @@ pub enum PathError {
     /// Nothing to drive along.
     #[error("a path needs at least two waypoints that lie apart")]
     TooFewWaypoints,
+    /// Arcs that would overlap.
+    #[error("no room for corners of {radius} m between the waypoints ({from_x}, {from_y}) and ({to_x}, {to_y})")]
+    NoRoom {
+        /// Of the arcs, metres.
+        radius: f64,
+        /// Where the leg begins, metres.
+        from_x: f64,
+        /// Likewise.
+        from_y: f64,
+        /// Where the leg ends, metres.
+        to_x: f64,
+        /// Likewise.
+        to_y: f64,
+    },
+    /// Nothing to drive round and round.
+    #[error("a path of several laps must end where it starts")]
+    NotClosed,
     /// Not a number, or further than any robot drives.
     #[error("{name} is {value}: {wanted}")]
     OutOfRange {
@@ -64,6 +83,22 @@ impl Path {
         let ends = corners.iter().copied().chain(std::iter::once(points.len()));
         let sections = starts.zip(ends).map(|(start, end)| start..end).collect();
         Self { points, sections }
+    }
+
+    /// The same path driven so many times.
+    ///
+    /// # Errors
+    /// [`PathError::NotClosed`] for several laps of a path that does not end where it starts.
+    pub fn repeated(&self, laps: u32) -> Result<Self, PathError> {
+        let (first, last) = (&self.points[0], &self.points[self.points.len() - 1]);
+        if laps > 1 && (last.position - first.position).norm() > SAME_PLACE {
+            return Err(PathError::NotClosed);
+        }
+        let lap = |lap: u32| {
+            let driven = f64::from(lap) * self.length();
+            self.points.iter().map(move |point| PathPoint { along: driven + point.along, ..*point })
+        };
+        Ok(Self::from_points((0..laps.max(1)).flat_map(lap).collect()))
     }
 
     /// Metres.

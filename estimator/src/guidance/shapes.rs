@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
 
-use super::path::{Path, PathError, PathPoint};
+use super::path::{Path, PathError, PathPoint, SAME_PLACE};
 use crate::fusion::PlanarPose;
 
 /// Distance between the points of a path, metres; a chord of it misses a bend of 0.3 m radius by 0.04 mm.
@@ -13,8 +13,6 @@ const SPACING: f64 = 0.01;
 const MAX_POINTS: f64 = 200_000.0;
 /// No coordinate is larger, metres.
 const MAX_COORDINATE: f64 = 1e5;
-/// Waypoints closer than this are one, metres.
-const SAME_PLACE: f64 = 1e-6;
 
 /// Position and its first two derivatives by a curve's own parameter.
 struct Local {
@@ -46,6 +44,50 @@ impl Path {
                 }
             }));
             along += chord.norm();
+        }
+        Ok(Self::from_points(points))
+    }
+
+    /// Straight from waypoint to waypoint, with an arc of `radius` metres at each corner.
+    ///
+    /// # Errors
+    /// As [`straight`](Self::straight), and where a leg is too short for the arcs at its ends.
+    pub fn rounded(waypoints: &[Point2<f64>], radius: f64) -> Result<Self, PathError> {
+        within("radius", radius, 0.01, MAX_COORDINATE)?;
+        let waypoints = distinct(waypoints)?;
+        let legs: Vec<Vector2<f64>> = waypoints.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let spacing = spacing(legs.iter().map(Vector2::norm).sum());
+        // At each waypoint; none at the first and the last.
+        let mut turns = vec![0.0; waypoints.len()];
+        for (turn, pair) in turns[1..].iter_mut().zip(legs.windows(2)) {
+            *turn = pair[0].perp(&pair[1]).atan2(pair[0].dot(&pair[1]));
+        }
+        let cut = |waypoint: usize| radius * (turns[waypoint] / 2.0).abs().tan();
+        let (mut points, mut along) = (Vec::new(), 0.0);
+        for (index, leg) in legs.iter().enumerate() {
+            let (from, to, turn) = (waypoints[index], waypoints[index + 1], turns[index + 1]);
+            let straight = leg.norm() - cut(index) - cut(index + 1);
+            if straight < -SAME_PLACE {
+                return Err(PathError::NoRoom { radius, from_x: from.x, from_y: from.y, to_x: to.x, to_y: to.y });
+            }
+            let forward = leg.normalize();
+            let start = from + forward * cut(index);
+            if straight > SAME_PLACE {
+                let local = |u: f64| Local { position: start + forward * u, first: forward, second: Vector2::zeros() };
+                append(&mut points, local, straight, spacing, &mut along);
+            }
+            let inwards = Vector2::new(-forward.y, forward.x) * turn.signum();
+            let local = |angle: f64| {
+                let (sin, cos) = angle.sin_cos();
+                Local {
+                    position: start + forward * straight + (forward * sin + inwards * (1.0 - cos)) * radius,
+                    first: (forward * cos + inwards * sin) * radius,
+                    second: (inwards * cos - forward * sin) * radius,
+                }
+            };
+            if turn.abs() * radius > SAME_PLACE {
+                append(&mut points, local, turn.abs(), spacing, &mut along);
+            }
         }
         Ok(Self::from_points(points))
     }
@@ -236,8 +278,16 @@ mod tests {
             assert!((chord.norm() - length).abs() < 1e-3 * length, "{here:?}");
             assert!(wrap_angle(chord.y.atan2(chord.x) - here.heading).abs() < 1e-2, "{here:?}");
             let curvature = wrap_angle(after.heading - before.heading) / length;
-            assert!((curvature - here.curvature).abs() < 0.02 * (1.0 + here.curvature.abs()), "{here:?} {curvature}");
+            // Where a straight becomes an arc it is in between.
+            let [low, .., high] = sorted([before.curvature, here.curvature, after.curvature]);
+            let tolerance = 0.02 * (1.0 + here.curvature.abs());
+            assert!((low - tolerance..high + tolerance).contains(&curvature), "{here:?} {curvature}");
         }
+    }
+
+    fn sorted(mut values: [f64; 3]) -> [f64; 3] {
+        values.sort_by(f64::total_cmp);
+        values
     }
 
     #[test]
@@ -262,6 +312,26 @@ mod tests {
         assert!(
             (far.curvature - 2.0).abs() < 1e-3 && ((far.position - Point2::new(1.0, -2.0)).norm() - 1.5).abs() < 1e-3
         );
+    }
+
+    #[test]
+    fn rounded_corners_are_arcs_of_their_radius() {
+        let corners = [[4.0, 1.0], [9.0, 1.0], [9.0, 5.0], [2.0, 5.0], [2.0, 1.0], [4.0, 1.0]].map(Point2::from);
+        let path = Path::rounded(&corners, 0.7).unwrap();
+        assert_consistent(&path);
+        assert_eq!(path.sections().len(), 1);
+        assert!((path.length() - (22.0 - 8.0 * 0.7 + TAU * 0.7)).abs() < 1e-6, "{}", path.length());
+        assert!((path.at(4.3 + 0.5).curvature - 1.0 / 0.7).abs() < 1e-6);
+        let twice = path.repeated(2).unwrap();
+        assert!(twice.sections().len() == 1 && (twice.length() - 2.0 * path.length()).abs() < 1e-9);
+        assert!((twice.at(path.length() + 1.0).position - path.at(1.0).position).norm() < 1e-9);
+
+        let dog_leg = [[0.0, 0.0], [1.0, 0.0], [0.5, 2.0]].map(Point2::from);
+        assert_consistent(&Path::rounded(&dog_leg, 0.3).unwrap());
+        assert!(matches!(Path::rounded(&dog_leg, 1.0), Err(PathError::NoRoom { from_x: 0.0, to_x: 1.0, .. })));
+        let back = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]].map(Point2::from);
+        assert!(matches!(Path::rounded(&back, 0.1), Err(PathError::NoRoom { .. })));
+        assert_eq!(Path::straight(&dog_leg).unwrap().repeated(2), Err(PathError::NotClosed));
     }
 
     proptest! {

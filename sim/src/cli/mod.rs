@@ -1,10 +1,13 @@
 //! The command line: reads arguments, runs a command, and turns what came of it into an exit code.
 
 pub mod bug;
+mod check;
 mod output;
 mod overrides;
 mod record;
 mod replay;
+mod scenario_args;
+mod schema;
 mod table;
 
 use std::io::{self, Write};
@@ -43,8 +46,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Check(check::Check),
     Record(record::Record),
     Replay(replay::Replay),
+    Schema(schema::Schema),
 }
 
 /// Why a command failed: always something about what it was given.
@@ -52,6 +57,8 @@ enum Command {
 enum Failure {
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
+    #[error("{invalid} of {all} scenarios can't be run")]
+    Invalid { invalid: usize, all: usize },
     #[error(transparent)]
     Write(#[from] WriteError),
     #[error(transparent)]
@@ -70,8 +77,10 @@ enum Failure {
 pub fn run() -> ExitCode {
     bug::exit_on_panic();
     let outcome = match Cli::parse().command {
+        Command::Check(check) => check.run(),
         Command::Record(record) => record.run(),
         Command::Replay(replay) => replay.run(),
+        Command::Schema(schema) => schema.run(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer};
-use crate::scenario::{Scenario, World};
+use crate::scenario::{AnyScenario, Fault};
 use crate::textured_room;
 
 const HELP: &str = "\
@@ -27,18 +28,20 @@ pub(super) struct Record {
     /// Where the recording goes
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    #[command(flatten)]
+    changes: ScenarioArgs,
 }
 
 impl Record {
     pub fn run(&self) -> Result<(), Failure> {
-        let scenario = Scenario::load(&self.scenario)?;
+        let (source, scenario) = self.changes.load(&self.scenario)?;
+        let AnyScenario::TexturedRoom(scenario) = scenario else {
+            let problem = "only the textured room can be recorded so far; write name = \"textured_room\"";
+            return Err(source.blame(Fault::new("world.name", problem)).into());
+        };
         let style = ProgressStyle::with_template("recording {wide_bar} {pos}/{len} frames, {eta} left");
         let bar = ProgressBar::new(scenario.frames() as u64).with_style(style.expect("the template is well formed"));
-        match scenario.world {
-            World::TexturedRoom => {
-                textured_room::record(&scenario, &self.out, |done, _| bar.set_position(done as u64))?;
-            }
-        }
+        textured_room::record(&scenario, &self.out, |done, _| bar.set_position(done as u64))?;
         bar.finish_and_clear();
         answer(&format!("{}: {} frames with their truth", self.out.display(), scenario.frames()));
         Ok(())

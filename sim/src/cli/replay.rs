@@ -9,11 +9,12 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use sunblind_estimator::params::Variant;
 use sunblind_estimator::{EstimatorParams, ParamError, Rig};
 
-use super::overrides::{self, Override};
+use super::overrides;
 use super::{Failure, answer, output, table, tell};
 use crate::record::Recording;
 use crate::report;
 use crate::runner::{Driven, ReplayOptions, replay};
+use crate::scenario::Override;
 
 const HELP: &str = "\
 Examples:

@@ -24,6 +24,7 @@ mod noise;
 mod path;
 mod print;
 mod rig;
+mod scenario;
 mod scene;
 mod solid;
 mod surface;
@@ -45,7 +46,6 @@ use crate::evaluation::StampedPose;
 use crate::random::stream;
 use crate::record::writer::{RecordingWriter, WriteError};
 use crate::record::{Body, Calibration, Latency};
-use crate::scenario::Scenario;
 use colour::{ColourCamera, SAMPLES};
 use depth::DepthSensor;
 use layout::furnished_room;
@@ -53,6 +53,7 @@ use lit_scene::{LitScene, Pose};
 
 pub use path::world_from_camera;
 pub use rig::{BASELINE, rig};
+pub use scenario::Scenario;
 
 /// How long the colour camera's shutter is open, seconds; a guess for a room in daylight.
 const EXPOSURE: f64 = 0.010;

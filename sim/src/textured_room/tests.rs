@@ -14,9 +14,8 @@ use super::lit_scene::{LitScene, Pose};
 use super::material::Material;
 use super::scene::Scene;
 use super::solid::{Shape, Solid};
-use super::{BASELINE, record, rig, world_from_camera};
+use super::{BASELINE, Scenario, record, rig, world_from_camera};
 use crate::random::stream;
-use crate::scenario::Scenario;
 
 fn sensor() -> DepthSensor {
     DepthSensor::new(&rig().depth.model)
@@ -107,7 +106,7 @@ fn a_near_thing_throws_its_shadow_to_the_left_and_nowhere_else() {
 #[test]
 fn equal_scenarios_give_equal_bytes_for_any_number_of_threads() {
     let text = "seed = 3\nduration_s = 0.1\nrate_hz = 30.0\n[world]\nname = \"textured_room\"\n";
-    let scenario = Scenario::parse(text, Path::new("inline")).unwrap();
+    let scenario: Scenario = toml::from_str(text).unwrap();
     let scratch = tempfile::tempdir().unwrap();
     let files = [1, 2].map(|threads| {
         let out = scratch.path().join(threads.to_string());

@@ -1,0 +1,266 @@
+//! Scenario files: TOML that says the world, the light, the robot's way, and what must hold. Every number has its unit
+//! in its key, unknown keys are refused, and every error says where it stands and what to write instead.
+//!
+//! The structs here are the file: field by field they are read, written and described in the JSON Schema. A few units
+//! are not SI; such fields keep the unit in their name. From top to bottom: `load` reads a file with its `overrides`,
+//! `source` knows where each key stands, `check` finds numbers that make no sense, `path` makes a path of what is
+//! written, `expect` judges a run.
+
+mod check;
+pub mod error;
+pub mod expect;
+mod load;
+pub mod overrides;
+pub mod path;
+pub mod schema;
+mod source;
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use sunblind_estimator::fusion::PlanarPose;
+use sunblind_estimator::{EstimatorParams, PoseSource};
+
+pub use error::{Fault, ScenarioError};
+pub use expect::Expectation;
+pub use load::{AnyScenario, load};
+pub use overrides::Override;
+pub use path::PathSpec;
+pub use source::Source;
+
+/// Length of a short form that says nothing else, seconds.
+const SHORT_DURATION: f64 = 5.0;
+
+/// A robot with a Kinect drives through a world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Seed of every random number: equal scenarios give equal bytes.
+    pub seed: u64,
+    /// The run ends after so many seconds, or earlier at the end of the path.
+    #[serde(rename = "duration_s")]
+    pub duration: f64,
+    /// Where.
+    pub world: World,
+    /// What shines.
+    #[serde(default)]
+    pub light: Light,
+    /// The Pioneer P3-AT and the floor under it.
+    #[serde(default)]
+    pub robot: Robot,
+    /// The sensor.
+    #[serde(default)]
+    pub kinect: Kinect,
+    /// The way.
+    pub path: PathSpec,
+    /// The estimator under test.
+    #[serde(default)]
+    pub estimator: Estimator,
+    /// What must hold at the end.
+    #[serde(default)]
+    pub expect: Vec<Expectation>,
+    /// The same scenario for the hurried, on `--short`.
+    #[serde(default)]
+    pub short: Short,
+}
+
+/// Where a scenario happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct World {
+    /// Which world.
+    pub name: WorldName,
+}
+
+/// The worlds that a robot can drive through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WorldName {
+    /// A tiled laboratory room, a carpeted office and a corridor, 12 × 9 m.
+    Laboratory,
+}
+
+/// What shines. The same for the whole run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Light {
+    /// Whether the lamps are on.
+    pub lamps: bool,
+    /// What comes through the windows, in multiples of an overcast day; 0 is night.
+    pub daylight_scale: f64,
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self { lamps: true, daylight_scale: 1.0 }
+    }
+}
+
+/// The robot and the floor under it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Robot {
+    /// A robot description to use instead of the built-in Pioneer P3-AT; relative to the scenario's file.
+    pub urdf: Option<PathBuf>,
+    /// The floor wherever no area is.
+    pub floor: Floor,
+    /// Other floors; where two overlap, the later one counts.
+    pub floor_areas: Vec<FloorArea>,
+    /// Whether a gyro is fitted.
+    pub gyro: bool,
+    /// Where the robot starts, x and y in metres, if not at the path's start.
+    #[serde(rename = "start_m")]
+    pub start: Option<[f64; 2]>,
+    /// Which way it looks at the start, counter-clockwise from x, if not along the path.
+    pub start_heading_deg: Option<f64>,
+}
+
+/// A kind of floor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Floor {
+    /// Ceramic tile.
+    #[default]
+    Tile,
+    /// Short-pile carpet.
+    Carpet,
+    /// Bare concrete.
+    Concrete,
+    /// Even everywhere; tyres slip only as far as turning makes them.
+    Ideal,
+}
+
+/// A rectangle of one floor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FloorArea {
+    /// What lies there.
+    pub floor: Floor,
+    /// South-west corner, x and y in metres.
+    #[serde(rename = "min_m")]
+    pub min: [f64; 2],
+    /// North-east corner, x and y in metres.
+    #[serde(rename = "max_m")]
+    pub max: [f64; 2],
+}
+
+/// How the Kinect is mounted and what it delivers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Kinect {
+    /// Height of the lenses above the floor, metres.
+    #[serde(rename = "lens_height_m")]
+    pub lens_height: f64,
+    /// Positive looks up, as the Kinect's own motor counts it.
+    pub tilt_deg: f64,
+    /// Frames a second.
+    #[serde(rename = "rate_hz")]
+    pub rate: f64,
+    /// Which images it delivers at a time.
+    pub streams: StreamMode,
+    /// Sensor noise; false for an ideal sensor.
+    pub noise: bool,
+    /// Motion during the exposure; false for an ideal sensor.
+    pub motion_blur: bool,
+    /// True depth instead of what the device makes of its infrared image: for comparison only.
+    pub truth_depth: bool,
+}
+
+impl Default for Kinect {
+    fn default() -> Self {
+        Self {
+            lens_height: 0.6,
+            tilt_deg: 0.0,
+            rate: 15.0,
+            streams: StreamMode::Simultaneous,
+            noise: true,
+            motion_blur: true,
+            truth_depth: false,
+        }
+    }
+}
+
+/// Which images a Kinect delivers at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StreamMode {
+    /// Colour, infrared and depth at once, as the papers assume.
+    Simultaneous,
+    /// Colour or infrared, never both, as the device has it; a switch costs time.
+    Exclusive,
+}
+
+/// The estimator under test.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Estimator {
+    /// On whose pose the robot follows the path.
+    pub drives: Drives,
+    /// What differs from the estimator's defaults.
+    #[schemars(schema_with = "schema::estimator_params")]
+    pub params: EstimatorParams,
+}
+
+/// On whose pose the robot follows its path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Drives {
+    /// Wheels and visual odometry in the smooth variable structure filter.
+    #[default]
+    Svsf,
+    /// The same in the extended Kalman filter.
+    Ekf,
+    /// Visual odometry.
+    Mvo,
+    /// Wheels, and a gyro where there is one.
+    Odometry,
+    /// The true pose: the robot keeps to its path, however wrong the estimates are.
+    Truth,
+}
+
+impl Drives {
+    /// The estimate that drives; `None` for the truth.
+    pub fn pose_source(self) -> Option<PoseSource> {
+        match self {
+            Self::Svsf => Some(PoseSource::Svsf),
+            Self::Ekf => Some(PoseSource::Ekf),
+            Self::Mvo => Some(PoseSource::Mvo),
+            Self::Odometry => Some(PoseSource::Odometry),
+            Self::Truth => None,
+        }
+    }
+}
+
+/// The short form of a scenario. It is judged by its own expectations only: what holds after 20 m need not after 2.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Short {
+    /// Seconds; 5, or the whole scenario where that is shorter, unless it is said.
+    #[serde(rename = "duration_s")]
+    pub duration: Option<f64>,
+    /// What must hold at its end.
+    pub expect: Vec<Expectation>,
+}
+
+impl Scenario {
+    /// The short form.
+    pub fn shortened(self) -> Self {
+        let duration = self.short.duration.unwrap_or(SHORT_DURATION).min(self.duration);
+        Self { duration, expect: self.short.expect.clone(), ..self }
+    }
+
+    /// Where the robot stands at the start, in the world.
+    ///
+    /// # Errors
+    /// When the path can't be driven.
+    pub fn start(&self) -> Result<PlanarPose, Fault> {
+        let path = self.path.shape()?;
+        let first = path.points()[0];
+        let [x, y] = self.robot.start.unwrap_or(first.position.into());
+        let heading = self.robot.start_heading_deg.map_or(first.heading, f64::to_radians);
+        Ok(PlanarPose::new(x, y, heading))
+    }
+}

@@ -1,0 +1,160 @@
+use proptest::option;
+use proptest::prelude::*;
+use sunblind_estimator::params::Variant;
+
+use super::*;
+use crate::scenario::path::PathKind;
+
+fn point() -> impl Strategy<Value = [f64; 2]> {
+    prop::array::uniform2(-900.0..900.0)
+}
+
+fn heading() -> impl Strategy<Value = Option<f64>> {
+    option::of(-360.0..360.0)
+}
+
+fn path() -> impl Strategy<Value = PathSpec> {
+    let empty = PathSpec {
+        kind: PathKind::Circle,
+        points: None,
+        corner_radius: None,
+        start: None,
+        start_heading_deg: None,
+        radius: None,
+        size: None,
+        laps: 1,
+        speed: 0.4,
+    };
+    // Points that lie far apart, on a curve that bends gently enough for small corners.
+    let ys = prop::collection::vec(-1.0..1.0, 2..6);
+    let points = ys.prop_map(|ys: Vec<f64>| (0..).zip(ys).map(|(i, y)| [f64::from(i) * 4.0, y]).collect::<Vec<_>>());
+    let of_points = {
+        let empty = empty.clone();
+        let kind = prop_oneof![Just(PathKind::Waypoints), Just(PathKind::Spline)];
+        (kind, points, option::of(0.1..0.5)).prop_map(move |(kind, points, radius)| PathSpec {
+            kind,
+            points: Some(points),
+            corner_radius: radius.filter(|_| kind == PathKind::Waypoints),
+            ..empty.clone()
+        })
+    };
+    let round = {
+        let empty = empty.clone();
+        (point(), heading(), 0.2..50.0_f64, any::<bool>(), 1..9_u32).prop_map(
+            move |(start, heading, size, eight, laps)| PathSpec {
+                kind: if eight { PathKind::FigureEight } else { PathKind::Circle },
+                start: Some(start),
+                start_heading_deg: heading,
+                radius: (!eight).then_some(-size),
+                size: eight.then_some(size),
+                laps,
+                ..empty.clone()
+            },
+        )
+    };
+    (prop_oneof![of_points, round], 0.01..0.7).prop_map(|(path, speed)| PathSpec { speed, ..path })
+}
+
+fn robot() -> impl Strategy<Value = Robot> {
+    let floor = prop_oneof![Just(Floor::Tile), Just(Floor::Carpet), Just(Floor::Concrete), Just(Floor::Ideal)];
+    let area = (floor.clone(), point(), prop::array::uniform2(0.1..50.0)).prop_map(|(floor, min, size)| FloorArea {
+        floor,
+        min,
+        max: [min[0] + size[0], min[1] + size[1]],
+    });
+    (floor, prop::collection::vec(area, 0..3), any::<bool>(), option::of(point()), heading()).prop_map(
+        |(floor, floor_areas, gyro, start, start_heading_deg)| Robot {
+            urdf: None,
+            floor,
+            floor_areas,
+            gyro,
+            start,
+            start_heading_deg,
+        },
+    )
+}
+
+fn kinect() -> impl Strategy<Value = Kinect> {
+    let streams = prop_oneof![Just(StreamMode::Simultaneous), Just(StreamMode::Exclusive)];
+    (0.3..2.0, -27.0..27.0, 1.0..30.0, streams, any::<[bool; 3]>()).prop_map(
+        |(lens_height, tilt_deg, rate, streams, [noise, motion_blur, truth_depth])| Kinect {
+            lens_height,
+            tilt_deg,
+            rate,
+            streams,
+            noise,
+            motion_blur,
+            truth_depth,
+        },
+    )
+}
+
+fn estimator() -> impl Strategy<Value = Estimator> {
+    let drives = prop_oneof![
+        Just(Drives::Svsf),
+        Just(Drives::Ekf),
+        Just(Drives::Mvo),
+        Just(Drives::Odometry),
+        Just(Drives::Truth)
+    ];
+    (drives, any::<bool>(), 1..5000_usize, 0.0..1.0_f32).prop_map(|(drives, paper, max_features, max_ratio)| {
+        let variant = if paper { Variant::Paper } else { Variant::Keyframes };
+        let mut params = EstimatorParams { variant, ..EstimatorParams::default() };
+        params.surf.max_features = max_features;
+        params.matching.max_ratio = max_ratio;
+        Estimator { drives, params }
+    })
+}
+
+fn expectations() -> impl Strategy<Value = Vec<Expectation>> {
+    let metric = prop_oneof![Just("svsf.ate_m"), Just("odometry.drift_percent"), Just("path_m")];
+    let expectation = (metric.clone(), option::of(metric), option::of(-9.0..0.0), 0.0..9.0_f64).prop_map(
+        |(metric, relative_to, min, max)| Expectation {
+            metric: metric.into(),
+            relative_to: relative_to.map(str::to_owned),
+            min,
+            max: Some(max),
+        },
+    );
+    prop::collection::vec(expectation, 0..3)
+}
+
+prop_compose! {
+    fn scenario()(
+        seed in 0..i64::MAX as u64, duration in 10.0..3600.0, lamps: bool, daylight_scale in 0.0..100.0,
+        robot in robot(), kinect in kinect(), path in path(), estimator in estimator(), expect in expectations(),
+        short in (option::of(1.0..10.0), expectations()),
+    ) -> Scenario {
+        Scenario {
+            seed,
+            duration,
+            world: World { name: WorldName::Laboratory },
+            light: Light { lamps, daylight_scale },
+            robot,
+            kinect,
+            path,
+            estimator,
+            expect,
+            short: Short { duration: short.0, expect: short.1 },
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_valid_scenario_comes_back_as_it_was_written(scenario in scenario()) {
+        prop_assert_eq!(scenario.check(), Ok(()));
+        let text = toml::to_string(&scenario).unwrap();
+        let back = parse(&text).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
+        prop_assert_eq!(back, AnyScenario::Robot(Box::new(scenario)));
+    }
+
+    #[test]
+    fn any_text_is_a_scenario_or_an_error(text in "\\PC*", key in "[a-z_]{1,5}(\\.[a-z_]{1,5}){0,2}", value in "\\PC*") {
+        let change: Override = format!("{key}={value}").parse().unwrap();
+        for text in [text.as_str(), GOOD] {
+            let source = Source::new(text, Path::new("s.toml"), std::slice::from_ref(&change));
+            let _ = source.scenario().map_err(|error| error.to_string());
+        }
+    }
+}
