@@ -39,6 +39,7 @@ fn what_is_wrong_is_placed_and_the_others_are_checked_all_the_same() {
         ("name = \"laboratory\"", "name = \"lab\"", "did you mean `laboratory`?"),
         ("floor = \"tile\"", "urdf = \"none.urdf\"", "no such file"),
         ("seed = 1", "seed = ", "expected"),
+        ("start_m = [4.3, 0.65]", "start_m = [4.3, 1.65]", "the path is blocked near (4.3"),
     ] {
         fs::write(&wrong, good.replace(from, to)).expect("a file");
         let line = good.lines().position(|line| line == from).expect("a line to change") + 1;

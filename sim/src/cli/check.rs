@@ -1,12 +1,14 @@
 //! `sunblind check`: whether scenarios can be run.
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer};
-use crate::scenario::AnyScenario;
+use crate::scenario::meaning::Obstacles;
+use crate::scenario::{AnyScenario, ScenarioError, WorldName};
 
 const HELP: &str = "\
 Examples:
@@ -15,7 +17,7 @@ Examples:
       would the scenario still be valid?
 
 Prints a line for each scenario: what it is, or the first thing wrong with it, as file:line:column, and what to write
-instead. Nothing is simulated. Exit code 2 when a scenario can't be run.";
+instead: also where the path leads into something. Nothing is simulated. Exit code 2 when a scenario can't be run.";
 
 /// Check scenarios without running them.
 #[derive(Args)]
@@ -30,10 +32,11 @@ pub(super) struct Check {
 
 impl Check {
     pub fn run(&self) -> Result<(), Failure> {
+        let mut worlds = BTreeMap::new();
         let mut invalid = 0;
         for file in &self.scenarios {
-            match self.changes.load(file) {
-                Ok((_, scenario)) => answer(&format!("{}: ok, {}", file.display(), in_words(&scenario))),
+            match self.check(file, &mut worlds) {
+                Ok(scenario) => answer(&format!("{}: ok, {}", file.display(), in_words(&scenario))),
                 Err(error) => {
                     invalid += 1;
                     answer(&error.to_string());
@@ -41,6 +44,17 @@ impl Check {
             }
         }
         if invalid == 0 { Ok(()) } else { Err(Failure::Invalid { invalid, all: self.scenarios.len() }) }
+    }
+
+    /// `worlds`: those that are built already.
+    fn check(&self, file: &Path, worlds: &mut BTreeMap<WorldName, Obstacles>) -> Result<AnyScenario, ScenarioError> {
+        let (source, scenario) = self.changes.load(file)?;
+        if let AnyScenario::Robot(scenario) = &scenario {
+            let name = scenario.world.name;
+            let obstacles = worlds.entry(name).or_insert_with(|| Obstacles::of(&name.build()));
+            scenario.check_way(|from, to| obstacles.leave_free(from, to)).map_err(|fault| source.blame(fault))?;
+        }
+        Ok(scenario)
     }
 }
 

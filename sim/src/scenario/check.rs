@@ -34,8 +34,8 @@ impl Scenario {
     pub fn check(&self) -> Result<(), Fault> {
         number("duration_s", self.duration, DURATION)?;
         number("light.daylight_scale", self.light.daylight_scale, DAYLIGHT)?;
-        self.check_robot()?;
         self.kinect.check()?;
+        self.check_robot()?;
         if self.duration * self.kinect.rate < 1.0 {
             let problem = format!("{} s hold no frame at {} Hz; write a longer one", self.duration, self.kinect.rate);
             return Err(Fault::new("duration_s", problem));
@@ -60,6 +60,7 @@ impl Scenario {
             );
             return Err(Fault::new("robot.urdf", problem));
         }
+        self.robot_model()?;
         all("robot.floor_areas", &self.robot.floor_areas, FloorArea::check)?;
         point("robot.start_m", self.robot.start)?;
         optional("robot.start_heading_deg", self.robot.start_heading_deg, HEADING)

@@ -4,12 +4,13 @@
 //! The structs here are the file: field by field they are read, written and described in the JSON Schema. A few units
 //! are not SI; such fields keep the unit in their name. From top to bottom: `load` reads a file with its `overrides`,
 //! `source` knows where each key stands, `check` finds numbers that make no sense, `path` makes a path of what is
-//! written, `expect` judges a run.
+//! written, `meaning` the world, the floors and the robot, `expect` judges a run.
 
 mod check;
 pub mod error;
 pub mod expect;
 mod load;
+pub mod meaning;
 pub mod overrides;
 pub mod path;
 pub mod schema;
@@ -76,7 +77,7 @@ pub struct World {
 }
 
 /// The worlds that a robot can drive through.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WorldName {
     /// A tiled laboratory room, a carpeted office and a corridor, 12 × 9 m.

@@ -24,7 +24,7 @@ fn parse(text: &str) -> Result<AnyScenario, ScenarioError> {
     Source::new(text, Path::new("s.toml"), &[]).scenario()
 }
 
-fn robot(text: &str) -> Scenario {
+pub(super) fn robot(text: &str) -> Scenario {
     match parse(text).unwrap() {
         AnyScenario::Robot(scenario) => *scenario,
         AnyScenario::TexturedRoom(_) => panic!("the textured room has no robot"),
@@ -32,7 +32,7 @@ fn robot(text: &str) -> Scenario {
 }
 
 /// Every file of `scenarios/`.
-fn shipped() -> Vec<PathBuf> {
+pub(super) fn shipped() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files: Vec<_> = files.filter(|file| file.extension().is_some_and(|extension| extension == "toml")).collect();

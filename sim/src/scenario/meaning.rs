@@ -1,0 +1,145 @@
+//! What a scenario's names stand for: the world, the floors, the robot.
+
+use glam::DVec3;
+use nalgebra::Point2;
+
+use super::{Fault, Floor, Robot, Scenario, WorldName};
+use crate::physics::{self, FloorPlan};
+use crate::robot::{CameraMount, InertialNoise, RobotModel};
+use crate::world::laboratory::laboratory;
+use crate::world::rays::Rays;
+use crate::world::{Object, World};
+
+/// A world is the same in each run: a scenario's seed moves noise and slip, not furniture.
+const WORLD_SEED: u64 = 1;
+
+impl WorldName {
+    /// Builds the world, without its light.
+    pub fn build(self) -> World {
+        match self {
+            Self::Laboratory => laboratory(WORLD_SEED),
+        }
+    }
+}
+
+impl From<Floor> for physics::Floor {
+    fn from(floor: Floor) -> Self {
+        match floor {
+            Floor::Tile => Self::TILE,
+            Floor::Carpet => Self::CARPET,
+            Floor::Concrete => Self::CONCRETE,
+            Floor::Ideal => Self::IDEAL,
+        }
+    }
+}
+
+impl Robot {
+    /// Which floor lies where.
+    pub fn floor_plan(&self) -> FloorPlan {
+        let area =
+            |area: &super::FloorArea| physics::FloorArea { min: area.min, max: area.max, floor: area.floor.into() };
+        FloorPlan { elsewhere: self.floor.into(), areas: self.floor_areas.iter().map(area).collect() }
+    }
+}
+
+impl Scenario {
+    /// The robot with its Kinect mounted, and with a gyro if one is wanted.
+    ///
+    /// # Errors
+    /// The description file can't be read, or describes no such robot.
+    pub fn robot_model(&self) -> Result<RobotModel, Fault> {
+        let mount =
+            CameraMount { height: Some(self.kinect.lens_height), tilt: Some(self.kinect.tilt_deg.to_radians()) };
+        let mut model = match &self.robot.urdf {
+            Some(urdf) => {
+                let advice = "correct it, or delete the key for the built-in robot";
+                let fault = |error| Fault::new("robot.urdf", format!("{}: {error}; {advice}", urdf.display()));
+                RobotModel::load(urdf, &mount).map_err(fault)?
+            }
+            None => RobotModel::p3at(&mount),
+        };
+        model.gyro = self.robot.gyro.then(InertialNoise::pioneer_gyro);
+        Ok(model)
+    }
+}
+
+/// What stands in a robot's way.
+pub struct Obstacles {
+    /// `None` in an empty world.
+    rays: Option<Rays>,
+}
+
+/// The robot in a ball about its middle, metres above the floor: a P3-AT is 0.5 m wide, the Kinect 0.65 m high.
+const BALL_HEIGHT: f64 = 0.35;
+/// The ball's radius, metres. It must not touch the floor.
+const BALL_RADIUS: f64 = 0.3;
+/// How far apart a way is probed, metres.
+const PROBE: f64 = 0.1;
+
+impl Obstacles {
+    /// Everything in a world that a robot bumps into.
+    pub fn of(world: &World) -> Self {
+        let objects = world.objects.iter().filter(|Object { collides, .. }| *collides);
+        Self { rays: Rays::new(objects) }
+    }
+
+    /// Whether the robot fits through from one point to another.
+    pub fn leave_free(&self, from: &Point2<f64>, to: &Point2<f64>) -> bool {
+        let Some(rays) = &self.rays else { return true };
+        let steps = ((to - from).norm() / PROBE).ceil().max(1.0) as usize;
+        (0..=steps).all(|step| {
+            let at = from + (to - from) * (step as f64 / steps as f64);
+            rays.distance(DVec3::new(at.x, at.y, BALL_HEIGHT)) > BALL_RADIUS
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::scenario::tests::{robot, shipped};
+    use crate::scenario::{AnyScenario, load};
+
+    #[test]
+    fn no_shipped_scenario_drives_into_something() {
+        let obstacles = Obstacles::of(&WorldName::Laboratory.build());
+        let is_free = |from: &Point2<f64>, to: &Point2<f64>| obstacles.leave_free(from, to);
+        for file in shipped() {
+            if let AnyScenario::Robot(scenario) = load(&file).unwrap() {
+                assert_eq!(scenario.check_way(is_free), Ok(()), "{}", file.display());
+            }
+        }
+        let through_the_wall = "seed = 1\nduration_s = 60.0\n[world]\nname = \"laboratory\"\n[path]\n\
+                                kind = \"waypoints\"\npoints_m = [[4.0, 1.2], [4.0, 4.0]]\n";
+        let fault = robot(through_the_wall).check_way(is_free).unwrap_err();
+        assert!(fault.problem.starts_with("the path is blocked near (4.00, 1."), "{}", fault.problem);
+    }
+
+    #[test]
+    fn the_lab_loop_is_the_laboratorys() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/lab_loop.toml");
+        let AnyScenario::Robot(scenario) = load(&file).unwrap() else { panic!("a robot's scenario") };
+        let path = scenario.path.shape().unwrap();
+        for [x, y] in crate::world::laboratory::loop_waypoints() {
+            let distance = path.points().iter().map(|point| (point.position - Point2::new(x, y)).norm());
+            assert!(distance.fold(f64::INFINITY, f64::min) < 0.01, "({x}, {y}) is not on the path");
+        }
+    }
+
+    #[test]
+    fn floors_camera_and_gyro_are_as_written() {
+        let scenario = robot(
+            "seed = 1\nduration_s = 60.0\n[world]\nname = \"laboratory\"\n[path]\nkind = \"circle\"\n\
+             start_m = [4.0, 1.0]\nradius_m = 0.5\n[kinect]\nlens_height_m = 0.9\n[robot]\nfloor = \"concrete\"\n\
+             gyro = true\nfloor_areas = [{ floor = \"carpet\", min_m = [1, 1], max_m = [2, 2] }]\n",
+        );
+        let plan = scenario.robot.floor_plan();
+        assert_eq!(plan.floor_at(1.5, 1.5), &physics::Floor::CARPET);
+        assert_eq!(plan.floor_at(0.0, 0.0), &physics::Floor::CONCRETE);
+        let model = scenario.robot_model().unwrap();
+        assert!(model.gyro.is_some());
+        assert!((model.robot_from_camera.translation.z - 0.9).abs() < 1e-9);
+    }
+}
