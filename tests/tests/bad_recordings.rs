@@ -243,11 +243,11 @@ fn infrared_that_is_none() {
 fn a_drive_that_no_robot_has() {
     let recording = robot();
     recording.replace("calibration.toml", "ticks_per_m = 138000.0", "ticks_per_m = -1");
-    refused(&recording, &["calibration.toml:31:15: ticks_per_m is -1; write a positive number, such as 138000.0"]);
+    refused(&recording, &["calibration.toml:30:15: ticks_per_m is -1; write a positive number, such as 138000.0"]);
     let recording = robot();
     recording.replace("calibration.toml", "[mount]\nrobot_from_colour", "#");
-    refused(&recording, &["calibration.toml:30:1: [drive] needs to know where the camera sits", "write [mount]"]);
+    refused(&recording, &["calibration.toml:28:1: [drive] needs to know where the camera sits", "write [mount]"]);
     let recording = robot();
     recording.replace("calibration.toml", "[drive]", "[latency]\nrgb = 0.1\n\n[drive]");
-    refused(&recording, &["calibration.toml:31:1: unknown variant `rgb`, expected one of `gyro_s`"]);
+    refused(&recording, &["calibration.toml:30:1: unknown variant `rgb`, expected one of `gyro_s`"]);
 }
