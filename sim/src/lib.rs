@@ -1,6 +1,7 @@
 //! Runs, records, replays and judges localisation. `record` reads and writes recordings, `runner` drives the
 //! estimator (the only room that does), `evaluation` holds it against the truth, `report` shows the result,
-//! `cli` is the command line; `textured_room` makes a small recording with known truth on the CPU.
+//! `new_folder` puts it in its place whole or not at all, `cli` is the command line; `textured_room` makes a small
+//! recording with known truth on the CPU.
 
 pub mod cli;
 pub mod evaluation;
