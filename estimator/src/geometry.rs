@@ -6,7 +6,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Rotation3, Translation3, UnitQuaternion, Vector3, Vector6};
 
-/// The matrix [v]ₓ with [v]ₓ w = v × w.
+/// The matrix `[v]ₓ` with `[v]ₓ w = v × w`.
 pub fn skew(v: &Vector3<f64>) -> Matrix3<f64> {
     v.cross_matrix()
 }

@@ -73,6 +73,7 @@ impl EstimatorParams {
             positive("keyframes.lost_sigma_rad", self.keyframes.lost_rotation),
             positive("paper.max_distance_m", self.paper.max_distance),
             at_least_one("paper.max_iterations", self.paper.max_iterations),
+            positive("paper.max_depth_m", self.paper.max_depth),
         ];
         let FusionParams { max_delay, max_wait, wheels, gyro, svsf, gate, .. } = self.fusion;
         let WheelOdometryParams {

@@ -2,13 +2,18 @@
 //! estimator (the only room that does), `evaluation` holds it against the truth, `report` shows the result,
 //! `new_folder` puts it in its place whole or not at all, `cli` is the command line; `textured_room` makes a small
 //! recording with known truth on the CPU.
+//!
+//! What is simulated: `world` is the place, `robot` the device, `physics` moves the one through the other (the only
+//! room that names the physics engine); `random` gives every effect its own stream.
 
 pub mod cli;
 pub mod evaluation;
 pub mod new_folder;
+pub mod physics;
 pub mod random;
 pub mod record;
 pub mod report;
+pub mod robot;
 pub mod runner;
 pub mod scenario;
 pub mod textured_room;

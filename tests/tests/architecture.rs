@@ -115,6 +115,21 @@ fn only_the_runner_calls_the_estimator() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
+/// The folder of the rule, and the words that only it may say in code.
+fn only_this_room_says(room: &str, words: &[&str]) {
+    let inside = |path: &Path| path.starts_with(root().join("sim/src").join(room));
+    let (within, outside): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        sources("sim/src").into_iter().partition(|(path, _)| inside(path));
+    assert!(!mentions(&within, words).is_empty(), "looked in the wrong place: {room} says none of {words:?}");
+    let found = mentions(&outside, words);
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn only_physics_names_the_physics_engine() {
+    only_this_room_says("physics", &["rapier", "glamx"]);
+}
+
 #[test]
 fn the_search_for_words_can_fail() {
     let sources = BTreeMap::from([(PathBuf::from("a.rs"), "let now = Instant::now();\n// Instant::now\n".to_owned())]);

@@ -84,7 +84,8 @@ fn assert_within(found: [(f64, f64); 4], bounds: [(f64, f64); 4]) {
 #[test]
 #[cfg_attr(not(recorded_data), ignore = "no recorded data")]
 fn five_robots_find_themselves_among_landmarks() {
-    let runs = runs(&recorded::folder("mrclam6"));
+    let folder = recorded::folder("mrclam6");
+    let runs = runs(&folder);
     // What others reach with a quick tuning of their own filters of the same kinds.
     let bounds = [(0.294, 0.354), (0.245, 0.298), (0.475, 0.699), (0.349, 0.456)];
     assert_within(all_four(&runs, 0.0), bounds);
@@ -93,7 +94,8 @@ fn five_robots_find_themselves_among_landmarks() {
 #[test]
 #[cfg_attr(not(recorded_data), ignore = "no recorded data")]
 fn a_biased_turn_rate_locks_no_filter_out() {
-    let runs = runs(&recorded::folder("mrclam6"));
+    let folder = recorded::folder("mrclam6");
+    let runs = runs(&folder);
     // 0.1 rad/s too much. A gate without a way back ends 4.15 m off.
     let bounds = [(0.868, 1.3), (1.1, 1.6), (0.950, 1.3), (1.1, 1.6)];
     assert_within(all_four(&runs, 0.1), bounds);

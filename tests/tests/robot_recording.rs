@@ -145,9 +145,10 @@ fn each_track_is_judged_at_the_instants_of_its_own_poses() {
             assert!(track.frames.len() >= 19, "{}: {} frames", track.name, track.frames.len());
             let counted = track.frames.iter().any(|frame| frame.counts.is_some());
             assert_eq!(counted, track.name == "mvo", "only visual odometry counts features");
-            // The wheels are true: their poses, judged at the frames' instants, would be off by 2 cm.
+            // A pose judged 0.03 s too late would be off by 9 mm, which the wheels show; the others follow a camera that
+            // sees too little to say.
             let score = evaluate(&track.frames, &log.truth).unwrap();
-            let limit = if track.name == "odometry" { 0.001 } else { 0.04 };
+            let limit = if track.name == "odometry" { 0.004 } else { 0.025 };
             assert!(score.end_error_m < limit, "{}: {score:?}", track.name);
         }
     }

@@ -147,7 +147,6 @@ fn the_covariances_are_honest() {
         }
         let [odometry, ekf, svsf] = sums;
         let rmse = squares.map(f64::sqrt);
-        println!("delay {delay}: NEES {sums:?}, RMSE {rmse:?}");
         assert!((1.5..6.0).contains(&odometry) && (1.5..6.0).contains(&ekf) && (1.5..6.0).contains(&svsf), "{sums:?}");
         // Either filter is worth having, and the optimal one is best where all noise is as it is said to be.
         assert!(rmse[1] < 0.5 * rmse[0] && rmse[2] < 0.5 * rmse[0] && rmse[1] < 1.05 * rmse[2], "{rmse:?}");

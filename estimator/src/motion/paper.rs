@@ -14,15 +14,19 @@ pub struct PaperMotionParams {
     pub max_distance: f64,
     /// Rounds of reject and refit, at most.
     pub max_iterations: usize,
+    /// Points beyond this are not used (paper A, §3), metres.
+    #[serde(rename = "max_depth_m")]
+    pub max_depth: f64,
 }
 
 impl Default for PaperMotionParams {
     fn default() -> Self {
-        Self { max_distance: 0.05, max_iterations: 20 }
+        Self { max_distance: 0.05, max_iterations: 20, max_depth: 2.4 }
     }
 }
 
-/// Minimises (1/N) Σ ‖R P^{i+1} + t − P^i‖² (Eq. 4) over the pairs that agree, until they no longer change.
+/// Starts from [`ransac`], as the paper is silent on where ICP starts, then
+/// minimises (1/N) Σ ‖R P^{i+1} + t − P^i‖² (Eq. 4) over the pairs that agree, until they no longer change.
 /// The paper gives no covariance; this one is the least squares' own, σ² (Σ JᵀJ)⁻¹ with σ from the residuals.
 ///
 /// # Errors

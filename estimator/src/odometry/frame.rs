@@ -4,7 +4,7 @@ use crate::camera::Rig;
 use crate::estimator::Stage;
 use crate::features::surf::{Feature, Surf};
 use crate::image::{DepthImage, RgbImage};
-use crate::params::EstimatorParams;
+use crate::params::{EstimatorParams, Variant};
 use crate::structure::{DepthNoise, Landmark, Registration, depth_at, lift};
 
 /// Features with depth, strongest first; `landmarks[i]` belongs to `features[i]`.
@@ -27,12 +27,11 @@ pub struct FrameBuilder {
 impl FrameBuilder {
     /// Tables for one rig.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
-        Self {
-            registration: Registration::new(rig),
-            surf: Surf::new(params.surf),
-            noise: params.depth_noise,
-            rig: rig.clone(),
+        let mut noise = params.depth_noise;
+        if params.variant == Variant::Paper {
+            noise.max_depth = noise.max_depth.min(params.paper.max_depth);
         }
+        Self { registration: Registration::new(rig), surf: Surf::new(params.surf), noise, rig: rig.clone() }
     }
 
     /// Registration, SURF, and the lift to 3D (paper A, §3.1: RGB feature + registered depth).

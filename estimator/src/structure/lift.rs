@@ -17,7 +17,7 @@ pub struct DepthNoise {
     /// σ of a feature's position in the image at scale s = 1; grows with s. Pixels.
     #[serde(rename = "pixel_sigma_px")]
     pub pixel_sigma: f64,
-    /// Depths beyond this are not used (paper A drops points beyond 2.4 m). Metres.
+    /// Depths beyond this are not used. Metres.
     #[serde(rename = "max_depth_m")]
     pub max_depth: f64,
     /// Half the edge of the window that depth is gathered from, pixels; at most [`MAX_WINDOW`].

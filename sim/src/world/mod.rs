@@ -3,6 +3,14 @@
 //! World frame: x east, y north, z up; metres. Light has two bands everywhere: visible (linear RGB, lux) and 830 nm
 //! (W m⁻² nm⁻¹).
 
+pub mod bake;
+pub mod laboratory;
+pub mod material;
+pub mod rays;
+pub mod refine;
+mod scene;
+pub mod shape;
+
 /// Edge of every texture, texels.
 pub const TEXTURE_SIZE: usize = 512;
 

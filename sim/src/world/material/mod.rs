@@ -1,0 +1,282 @@
+//! Procedural, seeded textures, each with a visible albedo and its own at 830 nm.
+
+mod building;
+mod canvas;
+mod fronts;
+mod glyph;
+mod noise;
+mod outdoors;
+mod printed;
+mod stuff;
+pub mod substance;
+
+use rayon::prelude::*;
+
+use super::shape::Mapping;
+use super::{Material, TEXTURE_SIZE};
+use canvas::Canvas;
+
+/// Everything a world here is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs)] // the names say it
+pub enum Surface {
+    WallPaint,
+    FloorTile,
+    Carpet,
+    CeilingTile,
+    DoorLeaf,
+    Skirting,
+    Radiator,
+    Opal,
+    Enamel,
+    Oak,
+    Walnut,
+    Resin,
+    Steel,
+    GreyCoat,
+    DarkCoat,
+    GreyPlastic,
+    BlackPlastic,
+    BluePlastic,
+    RedCoat,
+    GreenCoat,
+    BlueFabric,
+    GreyFabric,
+    Cardboard,
+    BoxSide,
+    Leaf,
+    Soil,
+    Clay,
+    CabinetFront,
+    LockerFront,
+    DrawerFront,
+    Oscilloscope,
+    PowerSupply,
+    RackFront,
+    Keyboard,
+    Binders,
+    Books,
+    OldBooks,
+    Whiteboard,
+    Noticeboard,
+    Paper,
+    SciencePoster,
+    RobotPoster,
+    ContourMap,
+    ArtPrint,
+    SafetyPoster,
+    ExitSign,
+    Clock,
+    CodeScreen,
+    PlotScreen,
+    Outdoors,
+}
+
+/// How a surface is made.
+struct Recipe {
+    /// Metres that the texture shows, width and height.
+    size: [f32; 2],
+    /// Whether it repeats; otherwise a face shows all of it once.
+    repeats: bool,
+    paint: fn([f32; 2], u32) -> Canvas,
+}
+
+/// A surface that repeats every `size` metres.
+fn tiled(size: [f32; 2], paint: fn([f32; 2], u32) -> Canvas) -> Recipe {
+    Recipe { size, repeats: true, paint }
+}
+
+/// A picture of `size` metres.
+fn picture(size: [f32; 2], paint: fn([f32; 2], u32) -> Canvas) -> Recipe {
+    Recipe { size, repeats: false, paint }
+}
+
+impl Surface {
+    /// All of them; a world's materials are in this order.
+    pub const ALL: [Self; 50] = {
+        use Surface::*;
+        [
+            WallPaint,
+            FloorTile,
+            Carpet,
+            CeilingTile,
+            DoorLeaf,
+            Skirting,
+            Radiator,
+            Opal,
+            Enamel,
+            Oak,
+            Walnut,
+            Resin,
+            Steel,
+            GreyCoat,
+            DarkCoat,
+            GreyPlastic,
+            BlackPlastic,
+            BluePlastic,
+            RedCoat,
+            GreenCoat,
+            BlueFabric,
+            GreyFabric,
+            Cardboard,
+            BoxSide,
+            Leaf,
+            Soil,
+            Clay,
+            CabinetFront,
+            LockerFront,
+            DrawerFront,
+            Oscilloscope,
+            PowerSupply,
+            RackFront,
+            Keyboard,
+            Binders,
+            Books,
+            OldBooks,
+            Whiteboard,
+            Noticeboard,
+            Paper,
+            SciencePoster,
+            RobotPoster,
+            ContourMap,
+            ArtPrint,
+            SafetyPoster,
+            ExitSign,
+            Clock,
+            CodeScreen,
+            PlotScreen,
+            Outdoors,
+        ]
+    };
+
+    /// Its index among a world's materials.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// How its texture lies on a face. `shift` in 0..1 moves a repeating texture, so that no two pieces look alike.
+    pub fn mapping(self, shift: [f32; 2]) -> Mapping {
+        let [width, height] = self.recipe().size;
+        self.mapping_from([shift[0] * width, shift[1] * height])
+    }
+
+    /// The same, with the shift in metres: faces that continue each other line up.
+    pub fn mapping_from(self, offset: [f32; 2]) -> Mapping {
+        let Recipe { size, repeats, .. } = self.recipe();
+        if repeats { Mapping::Tiled { span: size, offset } } else { Mapping::Fitted }
+    }
+
+    fn recipe(self) -> Recipe {
+        match self {
+            Self::WallPaint => tiled([2.0, 2.0], building::wall_paint),
+            Self::FloorTile => tiled([1.8, 1.8], building::floor_tile),
+            Self::Carpet => tiled([1.0, 1.0], building::carpet),
+            Self::CeilingTile => tiled([1.2, 1.2], building::ceiling_tile),
+            Self::DoorLeaf => picture([1.0, 2.1], building::door_leaf),
+            Self::Skirting => tiled([1.0, 1.0], building::skirting),
+            Self::Radiator => picture([1.2, 0.6], building::radiator),
+            Self::Opal => tiled([1.0, 1.0], building::opal),
+            Self::Enamel => tiled([1.0, 1.0], building::enamel),
+            Self::Oak => tiled([1.2, 1.2], stuff::oak),
+            Self::Walnut => tiled([1.2, 1.2], stuff::walnut),
+            Self::Resin => tiled([1.0, 1.0], stuff::resin),
+            Self::Steel => tiled([0.6, 0.6], stuff::steel),
+            Self::GreyCoat => tiled([1.0, 1.0], stuff::grey_coat),
+            Self::DarkCoat => tiled([1.0, 1.0], stuff::dark_coat),
+            Self::GreyPlastic => tiled([0.5, 0.5], stuff::grey_plastic),
+            Self::BlackPlastic => tiled([0.5, 0.5], stuff::black_plastic),
+            Self::BluePlastic => tiled([0.5, 0.5], stuff::blue_plastic),
+            Self::RedCoat => tiled([0.5, 0.5], stuff::red_coat),
+            Self::GreenCoat => tiled([0.5, 0.5], stuff::green_coat),
+            Self::BlueFabric => tiled([0.4, 0.4], stuff::blue_fabric),
+            Self::GreyFabric => tiled([0.4, 0.4], stuff::grey_fabric),
+            Self::Cardboard => tiled([0.6, 0.6], stuff::cardboard),
+            Self::BoxSide => picture([0.5, 0.4], stuff::box_side),
+            Self::Leaf => tiled([0.15, 0.15], stuff::leaf),
+            Self::Soil => tiled([0.3, 0.3], stuff::soil),
+            Self::Clay => tiled([0.5, 0.5], stuff::clay),
+            Self::CabinetFront => picture([0.9, 1.9], fronts::cabinet),
+            Self::LockerFront => picture([0.4, 1.8], fronts::locker),
+            Self::DrawerFront => picture([0.42, 0.6], fronts::drawers),
+            Self::Oscilloscope => picture([0.38, 0.2], fronts::oscilloscope),
+            Self::PowerSupply => picture([0.24, 0.16], fronts::power_supply),
+            Self::RackFront => picture([0.6, 1.8], fronts::rack),
+            Self::Keyboard => picture([0.44, 0.14], fronts::keyboard),
+            Self::Binders => picture([0.9, 0.32], printed::binders),
+            Self::Books => picture([0.9, 0.28], printed::books),
+            Self::OldBooks => picture([0.9, 0.26], printed::old_books),
+            Self::Whiteboard => picture([2.0, 1.2], printed::whiteboard),
+            Self::Noticeboard => picture([1.5, 1.0], printed::noticeboard),
+            Self::Paper => picture([0.3, 0.42], printed::page),
+            Self::SciencePoster => picture([0.84, 1.19], printed::science_poster),
+            Self::RobotPoster => picture([0.84, 1.19], printed::robot_poster),
+            Self::ContourMap => picture([1.19, 0.84], printed::contour_map),
+            Self::ArtPrint => picture([0.9, 0.9], printed::art_print),
+            Self::SafetyPoster => picture([0.6, 0.84], printed::safety_poster),
+            Self::ExitSign => picture([0.4, 0.2], printed::exit_sign),
+            Self::Clock => picture([0.3, 0.3], printed::clock),
+            Self::CodeScreen => picture([0.53, 0.3], fronts::code_screen),
+            Self::PlotScreen => picture([0.53, 0.3], fronts::plot_screen),
+            Self::Outdoors => picture([18.0, 9.0], outdoors::park),
+        }
+    }
+}
+
+/// The materials of a world, one for each of [`Surface::ALL`], in that order.
+pub fn materials(seed: u64) -> Vec<Material> {
+    Surface::ALL
+        .par_iter()
+        .map(|&surface| {
+            let Recipe { size, paint, .. } = surface.recipe();
+            let seed = (seed as u32 ^ (seed >> 32) as u32).wrapping_add(1009 * surface as u32);
+            paint(size, seed).finish(&format!("{surface:?}"))
+        })
+        .collect()
+}
+
+/// A material's mean albedo, linear: R, G, B, 830 nm.
+pub fn mean_albedo(material: &Material) -> [f32; 4] {
+    let linear: Vec<f64> = (0..=255).map(|byte| f64::from(substance::linear(byte as f32 / 255.0))).collect();
+    let mut sum = [0.0; 4];
+    for &[r, g, b, infrared] in &material.albedo {
+        for (sum, value) in sum.iter_mut().zip([r, g, b].map(|byte| linear[byte as usize])) {
+            *sum += value;
+        }
+        sum[3] += f64::from(infrared) / 255.0;
+    }
+    sum.map(|sum| (sum / (TEXTURE_SIZE * TEXTURE_SIZE) as f64) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_surface_is_listed_at_its_own_index_and_painted_plausibly_in_both_bands() {
+        let materials = materials(7);
+        for (index, (surface, material)) in Surface::ALL.iter().zip(&materials).enumerate() {
+            assert_eq!(surface.index(), index);
+            assert_eq!(material.albedo.len(), TEXTURE_SIZE * TEXTURE_SIZE);
+            for albedo in mean_albedo(material) {
+                assert!((0.005..0.9).contains(&albedo), "{}: {albedo}", material.name);
+            }
+        }
+    }
+
+    #[test]
+    fn dyes_vanish_at_830_nm_and_carbon_black_does_not() {
+        let materials = materials(7);
+        let mean = |surface: Surface| mean_albedo(&materials[surface.index()]);
+        let contrast = |[r, g, b, infrared]: [f32; 4]| infrared / (0.21 * r + 0.72 * g + 0.07 * b);
+        assert!(contrast(mean(Surface::BlueFabric)) > 3.0);
+        assert!(contrast(mean(Surface::Leaf)) > 4.0);
+        assert!(contrast(mean(Surface::BlackPlastic)) < 1.4);
+        assert!(contrast(mean(Surface::WallPaint)) < 1.2);
+    }
+
+    #[test]
+    fn a_seed_gives_its_materials_again_and_another_seed_others() {
+        let [a, b, c] = [3, 3, 4].map(|seed| materials(seed).swap_remove(Surface::Books.index()).albedo);
+        assert!(a == b && a != c);
+    }
+}

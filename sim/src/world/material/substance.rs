@@ -1,0 +1,81 @@
+//! What surfaces are made of, in both bands: the one table of albedos.
+
+/// Albedo of a matt surface: linear R, G, B, and at 830 nm.
+pub type Substance = [f32; 4];
+
+/// A colour given as sRGB hexadecimal, in linear R, G, B.
+pub fn colour(hex: u32) -> [f32; 3] {
+    [16, 8, 0].map(|shift| linear(((hex >> shift) & 255) as f32 / 255.0))
+}
+
+/// An opaque paint or plastic of a colour, with its own albedo at 830 nm.
+pub fn coat(hex: u32, infrared: f32) -> Substance {
+    let [r, g, b] = colour(hex);
+    [r, g, b, infrared]
+}
+
+/// sRGB to linear (IEC 61966-2-1).
+pub fn linear(encoded: f32) -> f32 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Linear to sRGB (IEC 61966-2-1).
+pub fn encoded(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+// Where each figure comes from. "Measured": spectral libraries (SLUM, ECOSTRESS). "Literature": remembered from it.
+// "Guess": by analogy, the analogy named.
+
+/// White wall paint. Literature: 0.80, 0.85, 0.85; 0.80–0.88 at 830 nm. A little soiled.
+pub const WALL_PAINT: Substance = [0.79, 0.78, 0.74, 0.82];
+/// Painted mineral fibre. Guess: as wall paint.
+pub const CEILING: Substance = [0.80, 0.80, 0.78, 0.82];
+/// Grey ceramic tile. Guess: between measured granite (0.41 → 0.43) and concrete.
+pub const CERAMIC: Substance = [0.40, 0.39, 0.36, 0.44];
+/// Cement, as grout. Measured concrete: 0.22, 0.28, 0.32 → 0.34; soiled.
+pub const GROUT: Substance = [0.17, 0.155, 0.135, 0.2];
+/// Dyed nylon carpet, blue-grey. Guess: dyes vanish, fibre stays (literature, dyed cotton: 0.3–0.7).
+pub const CARPET: Substance = [0.075, 0.095, 0.135, 0.42];
+/// Light wood, lacquered. Literature, untreated: 0.50, 0.40, 0.25 → 0.60–0.75.
+pub const OAK: Substance = [0.48, 0.33, 0.19, 0.64];
+/// Dark wood. Guess: tannins vanish too, 0.50.
+pub const WALNUT: Substance = [0.17, 0.095, 0.055, 0.50];
+/// Brushed steel or aluminium. Measured aluminium, its matt part: 0.53, 0.50, 0.45 → 0.53.
+pub const STEEL: Substance = [0.47, 0.47, 0.46, 0.50];
+/// Grey powder coat, titanium white with carbon black. Guess: both keep their tone, so grey stays.
+pub const GREY_COAT: Substance = [0.50, 0.51, 0.50, 0.52];
+/// Dark grey powder coat. Guess: as above.
+pub const DARK_COAT: Substance = [0.075, 0.078, 0.085, 0.08];
+/// Black plastic or rubber with carbon black. Literature: 0.04 → 0.04–0.06.
+pub const CARBON_BLACK: Substance = [0.04, 0.04, 0.042, 0.05];
+/// Light grey housing plastic. Guess: as white paint, toned with carbon.
+pub const GREY_PLASTIC: Substance = [0.55, 0.54, 0.50, 0.57];
+/// Black resin worktop. Guess: carbon black, slightly dusty.
+pub const RESIN: Substance = [0.085, 0.085, 0.088, 0.095];
+/// Cardboard. Guess: unbleached wood fibre, as untreated wood.
+pub const CARDBOARD: Substance = [0.40, 0.28, 0.16, 0.62];
+/// White paper. Guess: as white paint and white cotton (0.85).
+pub const PAPER: Substance = [0.82, 0.82, 0.80, 0.84];
+/// Undyed cloth. Literature, white cotton: 0.80–0.85 → 0.85; woven, so shadowed.
+pub const CLOTH_AT_830: f32 = 0.55;
+/// Cork. Guess: as bark and wood.
+pub const CORK: Substance = [0.34, 0.20, 0.10, 0.55];
+/// Green leaf. Measured deciduous: 0.05, 0.11, 0.06 → 0.55.
+pub const LEAF: Substance = [0.05, 0.11, 0.045, 0.52];
+/// Potting soil. Measured dark loam: 0.08, 0.05, 0.02 → 0.16.
+pub const SOIL: Substance = [0.08, 0.05, 0.025, 0.16];
+/// Fired clay. Measured brick: 0.31, 0.24, 0.17 → 0.35.
+pub const CLAY: Substance = [0.36, 0.17, 0.09, 0.38];
+/// White enamelled steel. Guess: as white paint.
+pub const ENAMEL: Substance = [0.80, 0.81, 0.80, 0.80];
+/// The face of a switched-off display: dark glass. Guess.
+pub const DARK_GLASS: Substance = [0.025, 0.026, 0.03, 0.04];
+/// Opal lamp cover. Guess: as white plastic.
+pub const OPAL: Substance = [0.85, 0.85, 0.85, 0.85];
+/// Red enamel (organic pigment). Guess: vanishes like a dye, over white.
+pub const RED_COAT: Substance = [0.50, 0.025, 0.02, 0.62];
+/// Blue plastic (phthalocyanine). Guess: its red absorption ends before 830 nm.
+pub const BLUE_PLASTIC: Substance = [0.03, 0.09, 0.33, 0.50];
+/// Overcast sky as a painted backdrop: 830 nm falls a little less on it than on the sky's lux. Guess.
+pub const SKY: Substance = [0.76, 0.84, 0.94, 0.80];

@@ -1,0 +1,109 @@
+//! Puts a world together, piece by piece.
+
+use std::collections::BTreeMap;
+
+use glam::{Vec3, vec3};
+
+use super::material::{self, Surface};
+use super::shape::{Mapping, Place};
+use super::{Lamp, Mesh, Object, World};
+
+/// A world under construction.
+#[derive(Default)]
+pub(super) struct Scene {
+    objects: Vec<Object>,
+    lamps: Vec<Lamp>,
+}
+
+/// What a piece is to a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// It stands in the way.
+    Solid,
+    /// It hangs on a wall or lies on a table, out of the way.
+    Decor,
+}
+
+impl Scene {
+    /// Adds a thing that `build` makes in the frame of `place`; one object for each of its surfaces.
+    pub fn piece(&mut self, name: &str, kind: Kind, place: Place, build: impl FnOnce(&mut Piece)) {
+        let number = self.objects.len() as f32;
+        // Golden-section steps: pieces that follow each other show far-apart parts of a texture.
+        let shift = [(0.618 * number).fract(), (0.414 * number).fract()];
+        let mut piece = Piece { shift, meshes: BTreeMap::new() };
+        build(&mut piece);
+        for (surface, mesh) in piece.meshes {
+            self.objects.push(Object {
+                name: format!("{name}, {surface:?}"),
+                mesh: mesh.placed(&place),
+                material: surface.index(),
+                collides: kind == Kind::Solid,
+            });
+        }
+    }
+
+    /// Adds a light.
+    pub fn lamp(&mut self, lamp: Lamp) {
+        self.lamps.push(lamp);
+    }
+
+    /// What has been built, with materials painted from `seed`.
+    pub fn finish(self, name: &str, seed: u64) -> World {
+        World { name: name.to_owned(), objects: self.objects, materials: material::materials(seed), lamps: self.lamps }
+    }
+}
+
+/// A thing while it is made, in its own frame: x to its right, y to its back, z up, its front faces −y. Metres.
+pub(super) struct Piece {
+    shift: [f32; 2],
+    meshes: BTreeMap<Surface, Mesh>,
+}
+
+impl Piece {
+    /// Adds any mesh.
+    pub fn mesh(&mut self, surface: Surface, mesh: &Mesh) {
+        self.meshes.entry(surface).or_default().append(mesh);
+    }
+
+    /// How a surface's texture lies on this piece.
+    pub fn mapping(&self, surface: Surface) -> Mapping {
+        surface.mapping(self.shift)
+    }
+
+    /// An upright box between two corners.
+    pub fn cuboid(&mut self, surface: Surface, min: [f32; 3], max: [f32; 3]) {
+        self.mesh(surface, &Mesh::cuboid(min.into(), max.into(), self.mapping(surface)));
+    }
+
+    /// A round bar.
+    pub fn bar(&mut self, surface: Surface, from: [f32; 3], to: [f32; 3], radius: f32) {
+        self.cone(surface, from, to, [radius; 2]);
+    }
+
+    /// A round bar with a radius at each end.
+    pub fn cone(&mut self, surface: Surface, from: [f32; 3], to: [f32; 3], radii: [f32; 2]) {
+        let sides = match radii[0].max(radii[1]) {
+            ..0.03 => 6,
+            ..0.1 => 10,
+            _ => 18,
+        };
+        self.mesh(surface, &Mesh::cylinder(from.into(), to.into(), radii, sides, self.mapping(surface)));
+    }
+
+    /// A flat face, given its top left corner, upper and left edge as seen from where it shows.
+    pub fn face(&mut self, surface: Surface, corner: Vec3, right: Vec3, down: Vec3) {
+        self.mesh(surface, &Mesh::quad(corner, right, down, self.mapping(surface)));
+    }
+
+    /// A picture on a front: `left` to `right` and `bottom` to `top`, a hair before `y`.
+    pub fn front(&mut self, surface: Surface, [left, right]: [f32; 2], [bottom, top]: [f32; 2], y: f32) {
+        let corner = vec3(left, y - 0.002, top);
+        self.face(surface, corner, vec3(right - left, 0.0, 0.0), vec3(0.0, 0.0, bottom - top));
+    }
+
+    /// A picture on a top that reads right from the front: `left` to `right`, `near` to `far`, a hair above `z`.
+    pub fn top(&mut self, surface: Surface, [left, right]: [f32; 2], [near, far]: [f32; 2], z: f32) {
+        let corner = vec3(left, far, z + 0.002);
+        self.face(surface, corner, vec3(right - left, 0.0, 0.0), vec3(0.0, near - far, 0.0));
+    }
+}
