@@ -1,6 +1,7 @@
 //! Runs, records, replays and judges localisation. `record` reads and writes recordings, `runner` drives the
 //! estimator (the only room that does), `evaluation` holds it against the truth, `report` shows the result,
-//! `cli` is the command line; `new_folder` makes a folder appear whole or not at all; `textured_room` makes a small recording with known truth on the CPU.
+//! `new_folder` puts it in its place whole or not at all, `cli` is the command line; `textured_room` makes a small
+//! recording with known truth on the CPU.
 //!
 //! What is simulated: `world` is the place, `robot` the device, `physics` moves the one through the other (the only
 //! room that names the physics engine); `random` gives every effect its own stream.

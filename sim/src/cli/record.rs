@@ -16,8 +16,8 @@ Example:
       then: sunblind replay out/textured_room
 
 The folder holds a recording in the TUM RGB-D layout: rgb/, depth/ (16-bit PNG, 5000 a metre), rgb.txt, depth.txt,
-groundtruth.txt (seconds, metres, unit quaternion) and calibration.toml. It appears whole at the end or not at all; an
-earlier recording there is replaced.";
+groundtruth.txt (seconds, metres, unit quaternion) and calibration.toml; times are exact to the nanosecond. It appears
+whole at the end or not at all; an earlier recording there is replaced.";
 
 /// Record what a simulated Kinect sees in a scenario, with the truth.
 #[derive(Args)]

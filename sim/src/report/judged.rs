@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind};
 
 use sunblind_estimator::{Health, Timestamp};
 
+use super::timing::Timing;
 use crate::evaluation::{Evaluation, evaluate, median_interval};
 use crate::runner::log::{FrameLog, RunLog, Track};
 
@@ -38,6 +39,12 @@ impl<'a> Judged<'a> {
     /// The judged track's evaluation.
     pub(super) fn evaluation(&self) -> Option<&Evaluation> {
         self.evaluations.first()?.as_ref()
+    }
+
+    /// Where the time of the judged track's estimator went: kept with the track of its visual odometry, if that is
+    /// another one. `None` when nobody held a clock to it.
+    pub(super) fn timing(&self) -> Option<Timing> {
+        self.log.tracks.iter().find_map(Timing::of)
     }
 
     /// When the first frame was taken.

@@ -30,7 +30,7 @@ struct Page<'a> {
     pictures: Option<Pictures>,
     timings: Vec<TrackTiming<'a>>,
     frame_budget: Option<String>,
-    parameters: Vec<(&'a str, &'a str)>,
+    parameters: Vec<(Vec<&'a str>, &'a str)>,
     provenance: Vec<(&'static str, String)>,
     files: Vec<String>,
 }
@@ -108,7 +108,7 @@ pub(super) fn to_html(judged: &Judged) -> io::Result<String> {
         pictures: pictures(judged)?,
         timings: timings(judged),
         frame_budget: judged.frame_interval().map(|interval| milliseconds(1e3 * interval)),
-        parameters: log.tracks.iter().map(|track| (track.label.as_str(), track.parameters.trim())).collect(),
+        parameters: parameters(judged),
         provenance: provenance(judged),
         files: files(judged),
     };
@@ -126,7 +126,7 @@ fn facts(judged: &Judged) -> Vec<Fact> {
         facts.push(Fact { value: angle(evaluation.rpe_deg), name: "turn drift in a second" });
         facts.push(Fact { value: percent(evaluation.drift_percent), name: "drift over the way" });
     }
-    if let Some(timing) = Timing::of(judged.track) {
+    if let Some(timing) = judged.timing() {
         facts.push(Fact { value: milliseconds(timing.total.median_ms), name: "a frame (median)" });
     }
     facts
@@ -219,6 +219,14 @@ fn timings<'a>(judged: &Judged<'a>) -> Vec<TrackTiming<'a>> {
                 .collect(),
             total: stage("all", String::new(), timing.total),
         })
+        .collect()
+}
+
+/// Each set of parameters with the names of the tracks that one estimator made with it.
+fn parameters<'a>(judged: &Judged<'a>) -> Vec<(Vec<&'a str>, &'a str)> {
+    let groups = judged.log.tracks.chunk_by(|a, b| a.parameters == b.parameters);
+    groups
+        .map(|tracks| (tracks.iter().map(|track| track.name.as_str()).collect(), tracks[0].parameters.trim()))
         .collect()
 }
 

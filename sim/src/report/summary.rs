@@ -39,7 +39,7 @@ struct Summary<'a> {
 
 #[derive(Serialize)]
 struct CpuPerFrame {
-    /// Mean over the judged estimator's frames of its stages' sum; `null` when nobody held a clock to it.
+    /// Mean over the frames of the stages' sum, of the estimator that made the judged track; `null` when nobody held a clock to it.
     estimator: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
         wall_s: log.wall,
         cpu_s: log.cpu,
         real_time_factor: judged.duration() / log.wall,
-        cpu_ms_per_frame: CpuPerFrame { estimator: Timing::of(judged.track).map(|timing| timing.mean_ms) },
+        cpu_ms_per_frame: CpuPerFrame { estimator: judged.timing().map(|timing| timing.mean_ms) },
         judged: &judged.track.name,
         estimators: estimators
             .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation)))

@@ -157,6 +157,29 @@ fn a_full_run_is_reported_in_full() {
     assert_eq!(timeline.records().map(Result::unwrap).count(), 600);
 }
 
+/// A robot with wheels: its visual odometry is one of several tracks, and not the judged one.
+#[test]
+fn many_tracks_share_an_estimator() {
+    let mut log = made_up_log(60);
+    for (name, label) in
+        [("ekf", "wheels and vision, EKF"), ("odometry", "wheels alone"), ("svsf", "wheels and vision, SVSF")]
+    {
+        let mut frames: Vec<_> = (0..60).map(|index| frame(index, 0.002)).collect();
+        frames.iter_mut().for_each(|frame| (frame.counts, frame.stage_ms) = (None, [0.0; 4]));
+        let parameters = log.tracks[0].parameters.clone();
+        log.tracks.insert(0, Track { name: name.into(), label: label.into(), parameters, frames });
+    }
+    log.tracks[4].parameters = "variant = \"paper\"\n".into();
+    let (_, page, summary) = written(&log);
+    assert_eq!(summary["judged"], "svsf");
+    assert!(summary["cpu_ms_per_frame"]["estimator"].as_f64().unwrap() > 30.0);
+    assert!(page.contains("a frame (median)"));
+    let groups: Vec<_> = page.matches("<summary>Parameters: ").collect();
+    assert_eq!(groups.len(), 2);
+    assert!(page.contains("<summary>Parameters: svsf, odometry, ekf, mvo</summary>"));
+    assert!(page.contains("class=\"metrics many\""));
+}
+
 #[test]
 fn equal_logs_give_equal_bytes() {
     let (first, ..) = written(&made_up_log(60));
