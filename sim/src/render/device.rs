@@ -90,3 +90,13 @@ fn first_adapter(backends: wgpu::Backends) -> Option<wgpu::Adapter> {
     let instance = wgpu::Instance::new(descriptor);
     pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).ok()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_driver_is_told_by_the_package_that_brings_it() {
+        assert!(RenderError::NoAdapter.to_string().contains("mesa-vulkan-drivers"));
+    }
+}

@@ -7,6 +7,7 @@
 //! Equal inputs give equal bytes, on one adapter and driver.
 
 mod device;
+mod passes;
 mod raster;
 mod readback;
 mod renderer;
@@ -18,6 +19,7 @@ mod uniforms;
 mod view;
 
 pub use device::{Adapter, RenderError};
-pub use renderer::{Frame, Images, Optics, ProjectorLight, Renderer, StageCost};
+pub use passes::{Optics, ProjectorLight};
+pub use renderer::{Frame, Images, Renderer, StageCost};
 pub use uniforms::{ColourSensor, InfraredSensor};
 pub use view::{CameraFrame, Sweep};

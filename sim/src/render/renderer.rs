@@ -3,56 +3,16 @@
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
-use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2, Vec4};
-use half::f16;
-use sunblind_estimator::camera::CameraModel;
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2};
 
 use super::device::{Adapter, Device, RenderError};
-use super::raster::{GBuffer, ProjectorMap, Target, uniform_buffer};
+use super::passes::{CameraPasses, MAP_FOCAL, MAP_SIZE, Optics, Samplers, colour_passes, infrared_passes};
+use super::raster::{ProjectorMap, uniform_buffer};
 use super::readback::Readback;
 use super::scene::Scene;
-use super::stage::{Binding, Stage};
-use super::uniforms;
-use super::view::{NEAR, TAPS, View, clip_from_camera};
+use super::view::{NEAR, clip_from_camera};
 use super::{CameraFrame, ColourSensor, InfraredSensor};
 use crate::world::World;
-
-/// The projector's map of depth: pixels, and its focal length. Covers the whole pattern and has about the infrared
-/// camera's resolution.
-const MAP_SIZE: [u32; 2] = [752, 576];
-const MAP_FOCAL: f32 = 580.0;
-
-/// The optics of a device, which do not change.
-pub struct Optics<'a> {
-    /// The colour camera.
-    pub colour: CameraModel,
-    /// The infrared camera.
-    pub infrared: CameraModel,
-    /// The projector beside it.
-    pub projector: ProjectorLight<'a>,
-}
-
-/// A dot projector: a pattern of 3×3 equal tiles behind a lens. Tangents are x/z in its frame, which is the infrared
-/// camera's moved along x.
-pub struct ProjectorLight<'a> {
-    /// Along x, metres.
-    pub baseline: f32,
-    /// Tangent by which the pattern's middle points towards the camera.
-    pub toe_in: f32,
-    /// Tangent from one grid position to the next.
-    pub pitch: f32,
-    /// Of the lens, on r².
-    pub pincushion: f32,
-    /// Of a dot's peak on a facing plane at 1 m, W/m².
-    pub peak_irradiance: f32,
-    /// Grid positions of a tile, across and down.
-    pub tile_grid: [usize; 2],
-    /// The tiles' brightness, row by row.
-    pub tile_brightness: [[f32; 3]; 3],
-    /// A tile's light, 1 at a dot's peak: samples across, down, and each one's value.
-    pub tile_image: ([usize; 2], &'a [f32]),
-}
 
 /// What is to be seen in one frame, and how it is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,17 +45,6 @@ pub struct StageCost {
     pub cpu: Duration,
     /// Time on the clock.
     pub wall: Duration,
-}
-
-/// One camera's passes.
-struct CameraPasses {
-    view: View,
-    uniform: wgpu::Buffer,
-    sensor_uniform: wgpu::Buffer,
-    gbuffer: GBuffer,
-    light: Stage,
-    sensor: Stage,
-    image: wgpu::Buffer,
 }
 
 /// A world, a device in it, and the graphics adapter that shows one the other.
@@ -282,162 +231,4 @@ impl Renderer {
             }
         })
     }
-}
-
-struct Samplers {
-    repeating: wgpu::Sampler,
-    bilinear: wgpu::Sampler,
-    nearest: wgpu::Sampler,
-}
-
-impl Samplers {
-    fn new(gpu: &Device) -> Self {
-        let sampler = |address, filter| {
-            gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-                address_mode_u: address,
-                address_mode_v: address,
-                mag_filter: filter,
-                min_filter: filter,
-                ..Default::default()
-            })
-        };
-        Self {
-            repeating: sampler(wgpu::AddressMode::Repeat, wgpu::FilterMode::Linear),
-            bilinear: sampler(wgpu::AddressMode::ClampToEdge, wgpu::FilterMode::Linear),
-            nearest: sampler(wgpu::AddressMode::ClampToEdge, wgpu::FilterMode::Nearest),
-        }
-    }
-}
-
-/// Light as the pinhole sees it, between the two compute stages.
-fn light_target(gpu: &Device, size: [u32; 2]) -> Target {
-    Target::new(gpu, size, wgpu::TextureFormat::Rgba16Float, wgpu::TextureUsages::STORAGE_BINDING)
-}
-
-/// Four bytes for every pixel of a sensor.
-fn image_buffer(gpu: &Device, model: &CameraModel) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("image"),
-        size: 4 * (model.width * model.height) as u64,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    })
-}
-
-fn colour_passes(gpu: &Device, optics: &Optics<'_>, scene: &Scene, samplers: &Samplers) -> CameraPasses {
-    let view = View::new(optics.colour);
-    let size = view.gbuffer_size();
-    let uniform = uniform_buffer(gpu, size_of::<uniforms::Camera>());
-    let sensor_uniform = uniform_buffer(gpu, size_of::<ColourSensor>());
-    let gbuffer = GBuffer::new(gpu, size, &uniform, "colour_vertex");
-    let luminance = light_target(gpu, size);
-    let image = image_buffer(gpu, &optics.colour);
-    let light = [
-        Binding::PreciseTexture(&gbuffer.places.view),
-        Binding::Texture(&gbuffer.lights.view),
-        Binding::TextureArray(&scene.albedos),
-        Binding::Linear(&samplers.repeating),
-        Binding::OutputTexture(&luminance.view),
-    ];
-    let sensor = [
-        Binding::Uniform(&uniform),
-        Binding::Uniform(&sensor_uniform),
-        Binding::Texture(&luminance.view),
-        Binding::Linear(&samplers.bilinear),
-        Binding::Output(&image),
-    ];
-    let pixels = [optics.colour.width as u32, optics.colour.height as u32];
-    let light = Stage::new(gpu, "colour_light", size, &light);
-    let sensor = sensor_stage(gpu, "colour_sensor", pixels, &sensor);
-    CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
-}
-
-fn infrared_passes(
-    gpu: &Device,
-    optics: &Optics<'_>,
-    scene: &Scene,
-    samplers: &Samplers,
-    projector_map: &ProjectorMap,
-) -> CameraPasses {
-    let view = View::new(optics.infrared);
-    let size = view.gbuffer_size();
-    let uniform = uniform_buffer(gpu, size_of::<uniforms::Camera>());
-    let sensor_uniform = uniform_buffer(gpu, size_of::<InfraredSensor>());
-    let gbuffer = GBuffer::new(gpu, size, &uniform, "infrared_vertex");
-    let radiance = light_target(gpu, size);
-    let image = image_buffer(gpu, &optics.infrared);
-    let projector = projector_uniform(gpu, &optics.projector);
-    let tile = tile_texture(gpu, &optics.projector);
-    let light = [
-        Binding::Uniform(&uniform),
-        Binding::PreciseTexture(&gbuffer.places.view),
-        Binding::Texture(&gbuffer.lights.view),
-        Binding::TextureArray(&scene.albedos),
-        Binding::Linear(&samplers.repeating),
-        Binding::Uniform(&projector),
-        Binding::Depth(&projector_map.depth.view),
-        Binding::Nearest(&samplers.nearest),
-        Binding::OutputTexture(&radiance.view),
-    ];
-    let sensor = [
-        Binding::Uniform(&uniform),
-        Binding::Uniform(&sensor_uniform),
-        Binding::Uniform(&projector),
-        Binding::Texture(&radiance.view),
-        Binding::PreciseTexture(&gbuffer.places.view),
-        Binding::Linear(&samplers.bilinear),
-        Binding::Nearest(&samplers.nearest),
-        Binding::Texture(&tile),
-        Binding::Linear(&samplers.repeating),
-        Binding::Output(&image),
-    ];
-    let pixels = [optics.infrared.width as u32, optics.infrared.height as u32];
-    let light = Stage::new(gpu, "infrared_light", size, &light);
-    let sensor = sensor_stage(gpu, "infrared_sensor", pixels, &sensor);
-    CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
-}
-
-/// A sensor's shader, compiled for every number of instants that its exposure may be made of.
-fn sensor_stage(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_>]) -> Stage {
-    let variants = TAPS.map(|taps| [("TAPS", f64::from(taps))]);
-    Stage::with_variants(gpu, name, size, bindings, &variants.each_ref().map(|variant| variant.as_slice()))
-}
-
-fn projector_uniform(gpu: &Device, projector: &ProjectorLight<'_>) -> wgpu::Buffer {
-    let uniform = uniforms::Projector {
-        baseline: projector.baseline,
-        toe_in: projector.toe_in,
-        pitch: projector.pitch,
-        pincushion: projector.pincushion,
-        peak_irradiance: projector.peak_irradiance,
-        map_focal: MAP_FOCAL,
-        map_size: Vec2::from(MAP_SIZE.map(|size| size as f32)),
-        map_near: NEAR,
-        tile_width: projector.tile_grid[0] as f32,
-        tile_height: projector.tile_grid[1] as f32,
-        padding: 0.0,
-        tile_brightness: projector.tile_brightness.map(|[left, middle, right]| Vec4::new(left, middle, right, 0.0)),
-    };
-    let buffer = uniform_buffer(gpu, size_of::<uniforms::Projector>());
-    gpu.queue.write_buffer(&buffer, 0, bytemuck::bytes_of(&uniform));
-    buffer
-}
-
-fn tile_texture(gpu: &Device, projector: &ProjectorLight<'_>) -> wgpu::TextureView {
-    let ([width, height], samples) = projector.tile_image;
-    // Half floats: every device can filter them.
-    let halves: Vec<u16> = samples.iter().map(|&sample| f16::from_f32(sample).to_bits()).collect();
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some("tile"),
-        size: wgpu::Extent3d { width: width as u32, height: height as u32, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R16Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    };
-    let bytes = bytemuck::cast_slice(&halves);
-    let texture = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes);
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

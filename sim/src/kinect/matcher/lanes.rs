@@ -55,7 +55,7 @@ impl Not for Lanes {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Self(self.0.map(|word| !word))
+        Self(std::array::from_fn(|lane| !self.0[lane]))
     }
 }
 
@@ -64,7 +64,7 @@ impl Shr<u32> for Lanes {
     /// Moves every word's bits down by itself; none pass from word to word.
     #[inline(always)]
     fn shr(self, places: u32) -> Self {
-        Self(self.0.map(|word| word >> places))
+        Self(std::array::from_fn(|lane| self.0[lane] >> places))
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) struct Reference {
 /// Roots of the sums of squares over every window; 0 nearer to the border than a window reaches.
 fn norms(image: &Residual) -> Vec<f32> {
     let width = image.width;
-    let mut norms = vec![0.0; image.values.len()];
+    let mut norms = vec![0.0; width * image.height];
     let mut columns = vec![0_u32; width];
     let square = |value: i16| (i32::from(value) * i32::from(value)) as u32;
     for bottom in 0..image.height {
@@ -69,49 +69,25 @@ impl Reference {
     /// the reference, pixels, positive when nearer. `keep` gets each pixel that has one.
     pub fn refine_row(&self, live: &Live, y: usize, candidates: &[u8], mut keep: impl FnMut(usize, f32)) {
         let columns = RADIUS..candidates.len() - RADIUS;
-        let mut sums = Sums::default();
+        let mut products = Products::new(columns.len());
         let mut x = columns.start;
         for run in candidates[columns].chunk_by(|a, b| a == b) {
             if run[0] != NO_MATCH {
                 let shift = NEAREST + isize::from(run[0]);
-                self.sum_run(live, x, y, shift, run.len(), &mut sums);
-                #[allow(clippy::needless_range_loop, reason = "one index walks several slices")]
+                // The reference's pixel for the middle one of three shifts.
+                let reference = (x + self.margin).wrapping_add_signed(-shift);
+                let first = [reference + 1, reference, reference - 1];
+                products.set(live, &self.residual, [x, y], first, run.len());
                 for at in 0..run.len() {
-                    let around = [0, 1, 2].map(|place| {
-                        let reference = (x + at + self.margin).wrapping_add_signed(1 - shift - place as isize);
-                        sums[place][at] as f32 * self.inverse_norm[y * self.residual.width + reference]
-                    });
+                    let inverse_norms = &self.inverse_norm[y * self.residual.width + at..];
+                    let correlation = |place: usize| products.windows[place][at] as f32 * inverse_norms[first[place]];
+                    let around = [correlation(0), correlation(1), correlation(2)];
                     if let Some(shift) = self.refine(live, x + at, y, shift, around) {
                         keep(x + at, shift);
                     }
                 }
             }
             x += run.len();
-        }
-    }
-
-    /// Products of the windows of a run of pixels with the reference's, shifted by one less than `shift`, by `shift`
-    /// and by one more. Neighbouring windows share all but one of their columns.
-    fn sum_run(&self, live: &Live, x: usize, y: usize, shift: isize, length: usize, sums: &mut Sums) {
-        let columns = length + COLUMNS - 1;
-        let left = x - COLUMNS / 2;
-        for (place, sums) in sums.iter_mut().enumerate() {
-            let reference_left = (left + self.margin).wrapping_add_signed(1 - shift - place as isize);
-            sums.clear();
-            sums.resize(columns, 0);
-            for row in y - RADIUS..=y + RADIUS {
-                let live = &live.residual.row(row)[left..][..columns];
-                let reference = &self.residual.row(row)[reference_left..][..columns];
-                for ((sum, &a), &b) in sums.iter_mut().zip(live).zip(reference) {
-                    *sum += i32::from(a) * i32::from(b);
-                }
-            }
-            // Twos, fours, eights.
-            for step in [1, 2, 4] {
-                for at in 0..columns - step {
-                    sums[at] += sums[at + step];
-                }
-            }
         }
     }
 
@@ -128,7 +104,7 @@ impl Reference {
             }
         }
         let [before, best, after] = around;
-        if best < before.max(after) || best < WEAKEST_CORRELATION * live.norms[y * live.residual.width + x] {
+        if best < before.max(after) || best <= WEAKEST_CORRELATION * live.norms[y * live.residual.width + x] {
             return None;
         }
         Some(shift as f32 + peak(before, best, after))
@@ -146,8 +122,60 @@ impl Reference {
     }
 }
 
-/// One for each of three shifts.
-type Sums = [Vec<i32>; 3];
+/// Products of the windows of neighbouring pixels with the reference's, for each of three shifts. Neighbouring windows
+/// share all but one of their columns.
+struct Products {
+    columns: Vec<i32>,
+    pairs: Vec<i32>,
+    windows: [Vec<i32>; 3],
+}
+
+impl Products {
+    fn new(longest: usize) -> Self {
+        let room = vec![0; (longest + COLUMNS).next_multiple_of(COLUMNS)];
+        Self { columns: room.clone(), pairs: room.clone(), windows: [room.clone(), room.clone(), room] }
+    }
+
+    /// For `length` pixels of a row from `x` on, against the reference's from each of `first` on.
+    fn set(&mut self, live: &Live, reference: &Residual, [x, y]: [usize; 2], first: [usize; 3], length: usize) {
+        // Whole vectors of columns, a few more than needed.
+        let columns = (length + COLUMNS - 1).next_multiple_of(COLUMNS);
+        let sums = &mut self.columns[..columns];
+        let live_width = live.residual.width;
+        for (windows, first) in self.windows.iter_mut().zip(first) {
+            let live = live.residual.from(x - COLUMNS / 2, y - RADIUS);
+            let other = reference.from(first - COLUMNS / 2, y - RADIUS);
+            for (vector, sums) in sums.as_chunks_mut().0.iter_mut().enumerate() {
+                let (live, other) = (&live[vector * COLUMNS..], &other[vector * COLUMNS..]);
+                *sums = column_products(live, live_width, other, reference.width);
+            }
+            add_shifted(&mut self.pairs[..columns], sums, 1);
+            add_shifted(sums, &self.pairs[..columns], 2);
+            add_shifted(&mut windows[..columns], sums, 4);
+        }
+    }
+}
+
+/// Products of the columns of two images, summed over a window's rows.
+#[inline(always)]
+fn column_products(a: &[i16], a_width: usize, b: &[i16], b_width: usize) -> [i32; COLUMNS] {
+    let mut sums = [0; COLUMNS];
+    for row in 0..=2 * RADIUS {
+        let a: &[i16; COLUMNS] = a[row * a_width..].first_chunk().expect("rows that lie in the image");
+        let b: &[i16; COLUMNS] = b[row * b_width..].first_chunk().expect("rows that lie in the image");
+        for lane in 0..COLUMNS {
+            sums[lane] += i32::from(a[lane]) * i32::from(b[lane]);
+        }
+    }
+    sums
+}
+
+/// Sums of numbers `step` places apart. The last `step` results are void.
+fn add_shifted(sums: &mut [i32], numbers: &[i32], step: usize) {
+    for ((sum, a), b) in sums.iter_mut().zip(numbers).zip(&numbers[step..]) {
+        *sum = a + b;
+    }
+}
 
 /// Where between −1 and 1 three correlations have their peak. The pattern resembles its shifted self as a Gaussian
 /// does that has been lowered by [`TROUGH`]; a parabola through them would draw results to whole pixels, by up to

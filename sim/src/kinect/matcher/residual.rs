@@ -7,9 +7,12 @@ use super::RADIUS;
 pub(super) struct Residual {
     pub width: usize,
     pub height: usize,
-    pub values: Vec<i16>,
+    /// Row after row, then [`PADDING`].
+    values: Vec<i16>,
 }
 
+/// Zeros after the last row, so that whole vectors can be read from its last pixels.
+const PADDING: usize = 8;
 const WINDOW: usize = 2 * RADIUS + 1;
 const AREA: u32 = (WINDOW * WINDOW) as u32;
 
@@ -17,7 +20,7 @@ impl Residual {
     /// Each pixel of a 10-bit image less the mean of the window around it. Nearer to the border than the window
     /// reaches, 0.
     pub fn of(pixels: &[u16], width: usize, height: usize) -> Self {
-        let mut values = vec![0; width * height];
+        let mut values = vec![0; width * height + PADDING];
         let mut column_sums = vec![0_u16; width];
         for row in pixels.chunks_exact(width).take(WINDOW - 1) {
             for (sum, &pixel) in column_sums.iter_mut().zip(row) {
@@ -42,6 +45,11 @@ impl Residual {
             }
         }
         Self { width, height, values }
+    }
+
+    /// The pixels from one on, to the image's end and [`PADDING`] zeros further.
+    pub fn from(&self, x: usize, y: usize) -> &[i16] {
+        &self.values[y * self.width + x..]
     }
 
     pub fn row(&self, y: usize) -> &[i16] {

@@ -18,7 +18,7 @@ const WINDOW: usize = 2 * RADIUS + 1;
 const COST_PLANES: usize = 5;
 /// By how much the next best candidate, unless it is the best one's neighbour, must be worse for a match to be unique.
 /// Chosen in the tests of the matcher: wrong matches stay below one in a hundred in any noise.
-const MARGIN: u32 = 4;
+const MARGIN: u32 = 2;
 const DISPARITY_PLANES: usize = CANDIDATES.ilog2() as usize + 1;
 
 /// An image of single bits: brighter than its surroundings or not.
@@ -41,13 +41,14 @@ impl BitImage {
         for y in 0..residual.height {
             let start = left - RADIUS as isize;
             for (index, bits) in bits.iter_mut().enumerate() {
-                let columns = start + 64 * index as isize..start + 64 * (index as isize + 1);
-                let inside =
-                    columns.start.clamp(0, residual.width as isize)..columns.end.clamp(0, residual.width as isize);
-                let offset = (inside.start - columns.start) as usize;
-                let pixels = &residual.row(y)[inside.start as usize..inside.end as usize];
-                let places = pixels.iter().enumerate();
-                *bits = places.fold(0, |bits, (place, &value)| bits | u64::from(value > 0) << (place + offset));
+                let first = start + 64 * index as isize;
+                let inside = |column: isize| column.clamp(0, residual.width as isize) as usize;
+                let pixels = &residual.row(y)[inside(first)..inside(first + 64)];
+                let skipped = inside(first).wrapping_add_signed(-first);
+                *bits = 0;
+                for (place, &value) in pixels.iter().enumerate() {
+                    *bits |= u64::from(value > 0) << (place + skipped);
+                }
             }
             words.extend((0..groups).map(|group| {
                 Lanes(std::array::from_fn(|lane| {
@@ -148,10 +149,12 @@ impl Best {
         let unique = self.unique();
         for (lane, pixels) in out.chunks_mut(USEFUL).enumerate() {
             let unique = unique.0[lane];
-            let planes = self.disparity.map(|plane| plane.0[lane]);
             for (x, pixel) in pixels.iter_mut().enumerate() {
-                let disparity = (0..DISPARITY_PLANES).fold(0, |sum, place| sum | (planes[place] >> x & 1) << place);
-                *pixel = if unique >> x & 1 == 1 { disparity as u8 } else { NO_MATCH };
+                let mut disparity = 0;
+                for (place, plane) in self.disparity.iter().enumerate() {
+                    disparity |= ((plane.0[lane] >> x) as u8 & 1) << place;
+                }
+                *pixel = if unique >> x & 1 == 1 { disparity } else { NO_MATCH };
             }
         }
     }
