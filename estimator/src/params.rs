@@ -55,6 +55,7 @@ impl EstimatorParams {
             positive("depth_noise.axial_per_m", self.depth_noise.axial),
             positive("depth_noise.pixel_sigma_px", self.depth_noise.pixel_sigma),
             positive("depth_noise.max_depth_m", self.depth_noise.max_depth),
+            positive("depth_noise.max_scatter", self.depth_noise.max_scatter),
             ("depth_noise.window_px", self.depth_noise.window as f64, self.depth_noise.window <= MAX_WINDOW, "0 to 5"),
             at_least_one("ransac.max_iterations", self.ransac.max_iterations),
             positive("ransac.miss_probability", self.ransac.miss_probability),

@@ -18,5 +18,7 @@ pub mod report;
 pub mod robot;
 pub mod runner;
 pub mod scenario;
+pub mod simulator;
 pub mod textured_room;
+mod truth;
 pub mod world;

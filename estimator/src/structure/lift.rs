@@ -20,6 +20,9 @@ pub struct DepthNoise {
     /// Depths beyond this are not used. Metres.
     #[serde(rename = "max_depth_m")]
     pub max_depth: f64,
+    /// A feature about which depth scatters by more than this share of it has none: it lies on the edge of a surface,
+    /// and nobody knows whether it belongs to that or to what is behind. 0–1.
+    pub max_scatter: f64,
     /// Half the edge of the window that depth is gathered from, pixels; at most [`MAX_WINDOW`].
     #[serde(rename = "window_px")]
     pub window: usize,
@@ -27,7 +30,7 @@ pub struct DepthNoise {
 
 impl Default for DepthNoise {
     fn default() -> Self {
-        Self { axial: 1.425e-3, pixel_sigma: 0.75, max_depth: 8.0, window: 3 }
+        Self { axial: 1.425e-3, pixel_sigma: 0.75, max_depth: 8.0, max_scatter: 0.05, window: 3 }
     }
 }
 
@@ -78,7 +81,7 @@ pub fn depth_at(x: f32, y: f32, depth: &RegisteredDepth, noise: &DepthNoise) -> 
     let z = f64::from(around[count / 2]);
     // Half the distance between the quartiles is 0.67 σ of a normal scatter.
     let scatter = f64::from(around[count * 3 / 4] - around[count / 4]) * (0.5 / 0.6745);
-    (z <= noise.max_depth).then(|| (z, (noise.axial * z * z).hypot(scatter)))
+    (z <= noise.max_depth && scatter <= noise.max_scatter * z).then(|| (z, (noise.axial * z * z).hypot(scatter)))
 }
 
 /// The 3D point of one feature; `None` without trustworthy depth.

@@ -6,8 +6,10 @@ mod output;
 mod overrides;
 mod record;
 mod replay;
+mod run;
 mod scenario_args;
 mod schema;
+mod stage;
 mod table;
 
 use std::io::{self, Write};
@@ -18,13 +20,19 @@ use sunblind_estimator::ParamError;
 use thiserror::Error;
 
 use crate::new_folder::FolderError;
+use crate::physics::WorldError;
 use crate::record::RecordError;
 use crate::record::writer::WriteError;
+use crate::render::RenderError;
 use crate::runner::ReplayError;
 use crate::scenario::ScenarioError;
 
+/// An expectation does not hold.
+const MISSED: u8 = 1;
 /// What the user gave can't be worked with.
 const BAD_INPUT: u8 = 2;
+/// No graphics adapter, or one that stopped working.
+const NO_ADAPTER: u8 = 3;
 
 const ABOUT: &str = "\
 A testbed for ground-robot localisation with a Kinect: makes recordings, replays them through the estimator that runs on \
@@ -49,6 +57,7 @@ enum Command {
     Check(check::Check),
     Record(record::Record),
     Replay(replay::Replay),
+    Run(run::Run),
     Schema(schema::Schema),
 }
 
@@ -65,12 +74,28 @@ enum Failure {
     Record(#[from] RecordError),
     #[error(transparent)]
     Replay(#[from] ReplayError),
+    #[error("{missed} expectation{} missed", if *missed == 1 { " was" } else { "s were" })]
+    Missed { missed: usize },
+    #[error(transparent)]
+    World(#[from] WorldError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
     #[error("{0}; change it with --set or in the calibration")]
     Params(#[from] ParamError),
     #[error(transparent)]
     Override(#[from] overrides::OverrideError),
     #[error(transparent)]
     Output(#[from] FolderError),
+}
+
+impl Failure {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Missed { .. } => MISSED,
+            Self::Render(_) => NO_ADAPTER,
+            _ => BAD_INPUT,
+        }
+    }
 }
 
 /// Runs the command that the process was started with.
@@ -80,13 +105,14 @@ pub fn run() -> ExitCode {
         Command::Check(check) => check.run(),
         Command::Record(record) => record.run(),
         Command::Replay(replay) => replay.run(),
+        Command::Run(run) => run.run(),
         Command::Schema(schema) => schema.run(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             tell(&format!("error: {failure}"));
-            ExitCode::from(BAD_INPUT)
+            ExitCode::from(failure.code())
         }
     }
 }

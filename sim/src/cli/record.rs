@@ -3,21 +3,24 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::scenario_args::ScenarioArgs;
-use super::{Failure, answer};
-use crate::scenario::{AnyScenario, Fault};
+use super::{Failure, answer, stage};
+use crate::record::writer::RecordingWriter;
+use crate::runner;
+use crate::scenario::{AnyScenario, Scenario, Source};
 use crate::textured_room;
 
 const HELP: &str = "\
 Example:
-  sunblind record scenarios/textured_room.toml --out out/textured_room
-      then: sunblind replay out/textured_room
+  sunblind record scenarios/lab_loop.toml --short --out out/lab
+      then: sunblind replay out/lab
 
-The folder holds a recording in the TUM RGB-D layout: rgb/, depth/ (16-bit PNG, 5000 a metre), rgb.txt, depth.txt,
-groundtruth.txt (seconds, metres, unit quaternion) and calibration.toml; times are exact to the nanosecond. It appears
-whole at the end or not at all; an earlier recording there is replaced.";
+The folder holds a recording in the TUM RGB-D layout: rgb/, ir/ and depth/ with their lists (rgb.txt, ...), odometry.txt,
+groundtruth.txt (seconds, metres, unit quaternion) and calibration.toml, which says what a value of depth means. Times are
+exact to the nanosecond. It appears whole at the end or not at all; an earlier recording there is replaced.
+
+The robot drives as in `sunblind run`, on its own estimate: a replay with the same parameters says the same, to the bit.";
 
 /// Record what a simulated Kinect sees in a scenario, with the truth.
 #[derive(Args)]
@@ -35,15 +38,35 @@ pub(super) struct Record {
 impl Record {
     pub fn run(&self) -> Result<(), Failure> {
         let (source, scenario) = self.changes.load(&self.scenario)?;
-        let AnyScenario::TexturedRoom(scenario) = scenario else {
-            let problem = "only the textured room can be recorded so far; write name = \"textured_room\"";
-            return Err(source.blame(Fault::new("world.name", problem)).into());
+        let frames = match scenario {
+            AnyScenario::Robot(scenario) => self.drive(&source, &scenario)?,
+            AnyScenario::TexturedRoom(scenario) => self.carry(&scenario)?,
         };
-        let style = ProgressStyle::with_template("recording {wide_bar} {pos}/{len} frames, {eta} left");
-        let bar = ProgressBar::new(scenario.frames() as u64).with_style(style.expect("the template is well formed"));
-        textured_room::record(&scenario, &self.out, |done, _| bar.set_position(done as u64))?;
-        bar.finish_and_clear();
-        answer(&format!("{}: {} frames with their truth", self.out.display(), scenario.frames()));
+        answer(&format!("{}: {frames} frames with their truth", self.out.display()));
         Ok(())
+    }
+
+    /// A robot drives as in `sunblind run`.
+    fn drive(&self, source: &Source, scenario: &Scenario) -> Result<usize, Failure> {
+        let world = stage::world(source, scenario)?;
+        let mut simulator = stage::simulator(source, scenario, &world)?;
+        let calibration = simulator.calibration().clone();
+        let writer = RecordingWriter::create(&self.out, &calibration)?;
+        let localizers = stage::localizers(scenario, calibration.rig)?;
+        let progress = stage::progress_bar("recording", runner::expected_frames(scenario));
+        let on_frame = || progress.inc(1);
+        let outcome = runner::run(String::new(), scenario, &mut simulator, localizers, Some(&writer), &on_frame);
+        progress.finish_and_clear();
+        outcome.map_err(|error| stage::blame(source, error))?;
+        writer.finish()?;
+        Ok(progress.position() as usize)
+    }
+
+    /// The textured room's camera is carried through it.
+    fn carry(&self, scenario: &textured_room::Scenario) -> Result<usize, Failure> {
+        let progress = stage::progress_bar("recording", scenario.frames());
+        textured_room::record(scenario, &self.out, |done, _| progress.set_position(done as u64))?;
+        progress.finish_and_clear();
+        Ok(scenario.frames())
     }
 }

@@ -6,6 +6,8 @@
 use nalgebra::{Isometry3, Translation3};
 use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, Rig};
 
+use super::matcher::NO_DEPTH;
+
 /// Raw disparity of a surface at the reference distance: z = 8·b·f/(offset − raw) with the published offset of 1090,
 /// 75 mm, 580 px and 1.20 m.
 pub const REFERENCE_RAW: f64 = 800.0;
@@ -59,6 +61,13 @@ impl Calibration {
         DepthEncoding::KinectDisparity { offset, baseline: self.baseline }
     }
 
+    /// The raw value of a surface at `z` metres; [`NO_DEPTH`] where there is none.
+    pub fn raw_of(&self, z: f64) -> u16 {
+        let per_distance = 1.0 / self.reference_distance - 1.0 / z;
+        let raw = (REFERENCE_RAW + STEPS_PER_PIXEL * self.baseline * self.infrared.fx * per_distance).round();
+        if (0.0..f64::from(NO_DEPTH)).contains(&raw) { raw as u16 } else { NO_DEPTH }
+    }
+
     /// What a perfect calibration of this unit would tell the estimator.
     pub fn rig(&self, robot_from_colour: Isometry3<f64>) -> Rig {
         let encoding = self.depth_encoding();
@@ -82,6 +91,19 @@ mod tests {
             panic!("a Kinect gives raw disparity");
         };
         assert!((offset - 1090.0).abs() < 1e-9 && (baseline - 0.075).abs() < 1e-9, "{offset}, {baseline}");
+    }
+
+    #[test]
+    fn raw_values_mean_what_the_encoding_says() {
+        let unit = Calibration::nominal();
+        let depth = unit.rig(Isometry3::identity()).depth;
+        for z in [0.5, 1.2, 3.7, 9.0] {
+            let step = z * z / (STEPS_PER_PIXEL * unit.baseline * unit.infrared.fx);
+            assert!((depth.depth_of(unit.raw_of(z)).unwrap() - z).abs() < 0.51 * step, "{z} m");
+        }
+        for nothing in [0.0, 0.1, -1.0, f64::NAN] {
+            assert_eq!(unit.raw_of(nothing), NO_DEPTH, "{nothing} m");
+        }
     }
 
     #[test]

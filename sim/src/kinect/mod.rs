@@ -10,14 +10,13 @@ pub mod pattern;
 pub mod projector;
 pub mod sensors;
 
-use glam::{DAffine3, DQuat, DVec3};
-use nalgebra::Isometry3;
+use glam::DAffine3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sunblind_estimator::image::{DepthImage, Image, InfraredImage, RgbImage};
 
 use crate::render::{
-    Adapter, CameraFrame, Frame, Images, Optics, ProjectorLight, RenderError, Renderer, StageCost, Sweep,
+    Adapter, CameraFrame, Frame, Images, Optics, ProjectorLight, RenderError, Renderer, StageCost, Sweep, affine,
 };
 use crate::world::World;
 use calibration::Calibration;
@@ -206,16 +205,6 @@ fn projector_light<'a>(calibration: &Calibration, projector: &'a Projector) -> P
 
 fn image<P>((width, height): (usize, usize), pixels: Vec<P>) -> Image<P> {
     Image::from_pixels(width, height, pixels).expect("the renderer makes images of the camera's size")
-}
-
-/// nalgebra, the estimator's mathematics, to glam, the simulation's.
-fn affine(isometry: &Isometry3<f64>) -> DAffine3 {
-    let rotation = isometry.rotation.coords;
-    let translation = isometry.translation.vector;
-    DAffine3::from_rotation_translation(
-        DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
-        DVec3::new(translation.x, translation.y, translation.z),
-    )
 }
 
 /// A number that changes with the least motion.

@@ -22,4 +22,4 @@ pub use device::{Adapter, RenderError};
 pub use passes::{Optics, ProjectorLight};
 pub use renderer::{Frame, Images, Renderer, StageCost};
 pub use uniforms::{ColourSensor, InfraredSensor};
-pub use view::{CameraFrame, Sweep};
+pub use view::{CameraFrame, Sweep, affine};

@@ -1,6 +1,7 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, UVec2, Vec2};
+use nalgebra::Isometry3;
 use sunblind_estimator::camera::CameraModel;
 
 use super::uniforms;
@@ -26,6 +27,11 @@ pub struct Sweep {
 }
 
 impl Sweep {
+    /// From one pose to another, in the estimator's mathematics.
+    pub fn between(start: &Isometry3<f64>, end: &Isometry3<f64>) -> Self {
+        Self { start: affine(start), end: affine(end) }
+    }
+
     /// At rest.
     pub fn still(world_from_camera: DAffine3) -> Self {
         Self { start: world_from_camera, end: world_from_camera }
@@ -41,6 +47,16 @@ impl Sweep {
     pub fn of_other(&self, camera_from_other: &DAffine3) -> Self {
         Self { start: self.start * *camera_from_other, end: self.end * *camera_from_other }
     }
+}
+
+/// nalgebra, the estimator's mathematics, to glam, the renderer's.
+pub fn affine(a_from_b: &Isometry3<f64>) -> DAffine3 {
+    let rotation = a_from_b.rotation.coords;
+    let translation = a_from_b.translation.vector;
+    DAffine3::from_rotation_translation(
+        DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
+        DVec3::new(translation.x, translation.y, translation.z),
+    )
 }
 
 fn rotation_and_place(pose: &DAffine3) -> (DQuat, DVec3) {

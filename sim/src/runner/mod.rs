@@ -1,6 +1,7 @@
 //! Drives localisers through what was measured: the only caller of the estimator.
 //!
-//! [`replay`] is the way in for a recording; a [`Session`] takes measurements as they come, from anywhere. A localiser of your own is scored in a few lines:
+//! [`replay`] is the way in for a recording, [`run`] for a scenario; a [`Session`] takes measurements as they come, from
+//! anywhere. A localiser of your own is scored in a few lines:
 //!
 //! ```no_run
 //! use sunblind_sim::evaluation::evaluate;
@@ -15,6 +16,7 @@
 //! # }
 //! ```
 
+mod closed_loop;
 mod digest;
 mod driven;
 mod follower;
@@ -23,8 +25,8 @@ mod pairing;
 mod replay;
 mod session;
 mod stage_clock;
-mod truth;
 
+pub use closed_loop::{RunError, expected_frames, run};
 pub use driven::Driven;
 pub use replay::{ReplayError, ReplayOptions, replay};
 pub use session::Session;

@@ -14,9 +14,9 @@ use super::driven::Driven;
 use super::follower::Follower;
 use super::log::{RunLog, Snapshot};
 use super::pairing::Pairing;
-use super::truth;
 use crate::evaluation::StampedPose;
 use crate::record::{Arrival, Frame};
+use crate::truth;
 
 /// Instants whose images are kept for the report.
 const SNAPSHOTS: usize = 6;

@@ -11,7 +11,7 @@ const LONGEST_GAP: f64 = 0.25;
 
 /// The pose at `time`: the position interpolated linearly, the rotation along the sphere. `None` outside the recorded
 /// truth and in its holes. `recorded` is in time order.
-pub(super) fn at(recorded: &[StampedPose], time: Timestamp) -> Option<StampedPose> {
+pub fn at(recorded: &[StampedPose], time: Timestamp) -> Option<StampedPose> {
     let after = recorded.partition_point(|pose| pose.time < time);
     let next = recorded.get(after)?;
     if next.time == time {

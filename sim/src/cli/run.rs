@@ -1,0 +1,91 @@
+//! `sunblind run`: a scenario is driven, estimated and judged.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::scenario_args::ScenarioArgs;
+use super::{Failure, answer, output, stage, table, tell};
+use crate::report;
+use crate::runner;
+use crate::scenario::{AnyScenario, Fault, Scenario, Source};
+
+const HELP: &str = "\
+Examples:
+  sunblind run scenarios/lab_loop.toml
+      drives it and writes out/lab_loop
+  sunblind run scenarios/*.toml --short
+      a few seconds of each, judged by their own short expectations
+  sunblind run scenarios/lab_loop.toml --seed 7 --set estimator.drives=\"odometry\"
+      other noise and slip, and a robot that goes by its wheels alone
+
+The robot drives its path on its own estimate, seen through a simulated Kinect. The output folder holds report.html (for
+reading, one file), summary.json (for machines), truth.tum and one <track>.tum for each estimate (for evo), and
+timeline.csv. It appears whole at the end or not at all; an earlier run's is replaced.
+
+Below the table stands what the scenario expects; exit code 1 when something of it was missed. Equal scenarios give equal
+digests, on one graphics driver, whatever the number of threads.";
+
+/// Drive scenarios, estimate, and judge.
+#[derive(Args)]
+#[command(after_long_help = HELP)]
+pub(super) struct Run {
+    /// The scenarios' files
+    #[arg(required = true, value_name = "SCENARIO")]
+    scenarios: Vec<PathBuf>,
+    /// Where the results go; with several scenarios, a folder of its own in there for each [default: out/<name>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    changes: ScenarioArgs,
+}
+
+impl Run {
+    pub fn run(&self) -> Result<(), Failure> {
+        // All are read before the first is driven: a slip of the pen should not cost an hour.
+        let loaded: Vec<_> = self.scenarios.iter().map(|file| self.load(file)).collect::<Result<_, _>>()?;
+        let mut missed = 0;
+        for (file, (source, scenario)) in self.scenarios.iter().zip(&loaded) {
+            let name = file.file_stem().map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned());
+            missed += run(&name, source, scenario, &self.out_of(&name))?;
+        }
+        if missed == 0 { Ok(()) } else { Err(Failure::Missed { missed }) }
+    }
+
+    fn load(&self, file: &Path) -> Result<(Source, Scenario), Failure> {
+        let (source, scenario) = self.changes.load(file)?;
+        match scenario {
+            AnyScenario::Robot(scenario) => Ok((source, *scenario)),
+            AnyScenario::TexturedRoom(_) => {
+                let problem = "nobody drives through the textured room: `sunblind record` it, then `sunblind replay` that";
+                Err(source.blame(Fault::new("world.name", problem)).into())
+            }
+        }
+    }
+
+    fn out_of(&self, name: &str) -> PathBuf {
+        match &self.out {
+            None => Path::new("out").join(name),
+            Some(out) if self.scenarios.len() == 1 => out.clone(),
+            Some(out) => out.join(name),
+        }
+    }
+}
+
+/// Drives one; how many of its expectations were missed.
+fn run(name: &str, source: &Source, scenario: &Scenario, out: &Path) -> Result<usize, Failure> {
+    output::check(out)?;
+    let world = stage::world(source, scenario)?;
+    let mut simulator = stage::simulator(source, scenario, &world)?;
+    let localizers = stage::localizers(scenario, simulator.calibration().rig.clone())?;
+    let progress = stage::progress_bar(name, runner::expected_frames(scenario));
+    let outcome = runner::run(name.to_owned(), scenario, &mut simulator, localizers, None, &|| progress.inc(1));
+    progress.finish_and_clear();
+    let log = outcome.map_err(|error| stage::blame(source, error))?;
+    for warning in &log.warnings {
+        tell(&format!("warning: {warning}"));
+    }
+    output::publish(out, |folder| report::write(&log, folder).map(drop))?;
+    answer(&format!("{name}\n{}\nreport: {}", table::of(&log), out.join("report.html").display()));
+    Ok(0)
+}

@@ -1,0 +1,69 @@
+//! A scenario made ready to be driven: a world with light in it, a free way, a robot with its sensors, localisers.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use sunblind_estimator::{EstimatorParams, ParamError, Rig};
+
+use super::Failure;
+use crate::runner::{Driven, RunError};
+use crate::scenario::meaning::Obstacles;
+use crate::scenario::{Scenario, ScenarioError, Source};
+use crate::simulator::{Simulator, SimulatorError};
+use crate::world::World;
+use crate::world::bake::{Effort, bake_cached};
+
+/// The scenario's world with its light. The first time this takes a while; progress is shown.
+///
+/// # Errors
+/// When something stands in the path's way.
+pub(super) fn world(source: &Source, scenario: &Scenario) -> Result<World, ScenarioError> {
+    let mut world = scenario.world.name.build();
+    let obstacles = Obstacles::of(&world);
+    scenario.check_way(|from, to| obstacles.leave_free(from, to)).map_err(|fault| source.blame(fault))?;
+    let style = ProgressStyle::with_template("lighting the world {wide_bar} {percent} %, {eta} left; once only");
+    let bar = ProgressBar::new(1000).with_style(style.expect("the template is well formed"));
+    let _ = bake_cached(&mut world, &Effort::default(), std::path::Path::new("/tmp/sunblind-cache"), &|done| {
+        bar.set_position((1000.0 * done) as u64)
+    });
+    bar.finish_and_clear();
+    Ok(world)
+}
+
+/// The robot at its start.
+///
+/// # Errors
+/// No graphics adapter, or a description that is none of a robot.
+pub(super) fn simulator(source: &Source, scenario: &Scenario, world: &World) -> Result<Simulator, Failure> {
+    Simulator::new(scenario, world).map_err(|error| match error {
+        SimulatorError::Scenario(fault) => source.blame(fault).into(),
+        SimulatorError::World(error) => Failure::World(error),
+        SimulatorError::Render(error) => Failure::Render(error),
+    })
+}
+
+/// The product's estimator, as the scenario has it.
+///
+/// # Errors
+/// Parameters that it can't run with.
+pub(super) fn localizers(scenario: &Scenario, rig: Rig) -> Result<Vec<Driven>, ParamError> {
+    let written = &scenario.estimator.params;
+    let pose_from = scenario.estimator.drives.pose_source().unwrap_or(written.pose_from);
+    let params = EstimatorParams { pose_from, ..written.clone() };
+    Ok(vec![Driven::product("mvo", "visual odometry", params, rig)?])
+}
+
+/// Frames, and how long it still takes, on standard error; nothing where that is no terminal. `frames` is a guess: a
+/// robot may be early or late.
+pub(super) fn progress_bar(doing: &str, frames: usize) -> ProgressBar {
+    let template = format!("{doing} {{wide_bar}} {{pos}}/{{len}} frames, {{eta}} left");
+    let style = ProgressStyle::with_template(&template).expect("the template is well formed");
+    ProgressBar::new(frames as u64).with_style(style)
+}
+
+/// A run's error in words that name the file.
+pub(super) fn blame(source: &Source, error: RunError) -> Failure {
+    match error {
+        RunError::Scenario(fault) => source.blame(fault).into(),
+        RunError::Render(error) => Failure::Render(error),
+        RunError::Write(error) => Failure::Write(error),
+    }
+}

@@ -1,0 +1,121 @@
+//! The Kinect on a thread of its own: it renders a frame while the robot drives on.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+use sunblind_estimator::image::Image;
+use sunblind_estimator::{MeasurementData, Timestamp};
+
+use crate::kinect::Kinect;
+use crate::render::{Adapter, RenderError, Sweep};
+
+/// One frame's images, of one instant.
+pub(super) struct Images {
+    pub captured_at: Timestamp,
+    pub data: Vec<MeasurementData>,
+}
+
+struct Order {
+    captured_at: Timestamp,
+    world_from_infrared: Sweep,
+    frame: u64,
+}
+
+/// A Kinect that is told where it is and answers later, in the same order.
+pub(super) struct Eye {
+    adapter: Adapter,
+    orders: Option<Sender<Order>>,
+    answers: Receiver<Result<Images, RenderError>>,
+    worker: Option<JoinHandle<()>>,
+    /// Captured, but not asked for yet.
+    open: VecDeque<Timestamp>,
+    ordered: u64,
+}
+
+impl Eye {
+    /// Opens it. With `true_depth`, depth is geometry instead of what the device makes of its infrared image.
+    pub fn open(mut kinect: Kinect, true_depth: bool) -> Self {
+        let adapter = kinect.adapter().clone();
+        let (orders, received) = channel::<Order>();
+        let (answer, answers) = channel();
+        let work = move || {
+            for Order { captured_at, world_from_infrared, frame } in received {
+                let images = capture(&mut kinect, &world_from_infrared, frame, true_depth)
+                    .map(|data| Images { captured_at, data });
+                if answer.send(images).is_err() {
+                    return;
+                }
+            }
+        };
+        let worker = std::thread::spawn(work);
+        Self { adapter, orders: Some(orders), answers, worker: Some(worker), open: VecDeque::new(), ordered: 0 }
+    }
+
+    /// What renders.
+    pub fn adapter(&self) -> &Adapter {
+        &self.adapter
+    }
+
+    /// Has a frame taken, exposed about `captured_at`.
+    pub fn capture(&mut self, captured_at: Timestamp, world_from_infrared: Sweep) {
+        let order = Order { captured_at, world_from_infrared, frame: self.ordered };
+        self.ordered += 1;
+        self.open.push_back(captured_at);
+        // Without a worker the answer will tell.
+        let _ = self.orders.as_ref().map(|orders| orders.send(order));
+    }
+
+    /// When the oldest frame was captured that nobody has asked for.
+    pub fn oldest(&self) -> Option<Timestamp> {
+        self.open.front().copied()
+    }
+
+    /// Waits for that frame.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    ///
+    /// # Panics
+    /// When the worker did, or there is no such frame.
+    pub fn wait(&mut self) -> Result<Images, RenderError> {
+        self.open.pop_front().expect("somebody asked for a frame that was never taken");
+        match self.answers.recv() {
+            Ok(images) => images,
+            Err(_) => match self.worker.take().map(JoinHandle::join) {
+                Some(Err(panic)) => std::panic::resume_unwind(panic),
+                _ => unreachable!("the worker ends only with its orders"),
+            },
+        }
+    }
+}
+
+impl Drop for Eye {
+    fn drop(&mut self) {
+        self.orders = None;
+        // A frame that nobody waits for any more is finished, so that the adapter is let go in order.
+        let _ = self.worker.take().map(JoinHandle::join);
+    }
+}
+
+fn capture(
+    kinect: &mut Kinect,
+    world_from_infrared: &Sweep,
+    frame: u64,
+    true_depth: bool,
+) -> Result<Vec<MeasurementData>, RenderError> {
+    let images = kinect.capture(world_from_infrared, frame)?;
+    let depth = if true_depth {
+        let depth = kinect.true_depth()?;
+        let raw = depth.pixels().iter().map(|&z| kinect.calibration().raw_of(f64::from(z))).collect();
+        Image::from_pixels(depth.width(), depth.height(), raw).expect("one value a pixel")
+    } else {
+        images.depth_raw
+    };
+    Ok(vec![
+        MeasurementData::Rgb(Arc::new(images.rgb)),
+        MeasurementData::Infrared(Arc::new(images.infrared)),
+        MeasurementData::Depth(Arc::new(depth)),
+    ])
+}
