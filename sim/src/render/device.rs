@@ -34,7 +34,7 @@ pub enum RenderError {
     /// More textures than the adapter holds.
     #[error("the world has {materials} materials; this graphics adapter holds {limit}")]
     TooManyMaterials {
-        /// Those of the world, and one for its lamps.
+        /// Those of the world, and one that is always there.
         materials: usize,
         /// The adapter's limit.
         limit: u32,
