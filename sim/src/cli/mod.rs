@@ -2,9 +2,13 @@
 
 pub mod bug;
 mod check;
+mod contact_sheet;
+mod difficulty;
+mod doctor;
 mod output;
 mod overrides;
 mod record;
+mod render;
 mod replay;
 mod scenario_args;
 mod schema;
@@ -20,11 +24,14 @@ use thiserror::Error;
 use crate::new_folder::FolderError;
 use crate::record::RecordError;
 use crate::record::writer::WriteError;
+use crate::render::RenderError;
 use crate::runner::ReplayError;
 use crate::scenario::ScenarioError;
 
 /// What the user gave can't be worked with.
 const BAD_INPUT: u8 = 2;
+/// Nothing here can render.
+const NO_ADAPTER: u8 = 3;
 
 const ABOUT: &str = "\
 A testbed for ground-robot localisation with a Kinect: makes recordings, replays them through the estimator that runs on \
@@ -34,7 +41,7 @@ Exit codes:
   0   done, and every expectation held
   1   an expectation was missed
   2   bad usage, or a scenario or recording that can't be used; the message says where and what to do
-  3   no graphics adapter
+  3   no graphics adapter that works; `sunblind doctor` says what to install
   70  a bug in sunblind; please report it";
 
 #[derive(Parser)]
@@ -47,12 +54,15 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Check),
+    Difficulty(difficulty::Difficulty),
+    Doctor(doctor::Doctor),
     Record(record::Record),
+    Render(render::Render),
     Replay(replay::Replay),
     Schema(schema::Schema),
 }
 
-/// Why a command failed: always something about what it was given.
+/// Why a command failed: something about what it was given, or nothing to render with.
 #[derive(Debug, Error)]
 enum Failure {
     #[error(transparent)]
@@ -71,6 +81,19 @@ enum Failure {
     Override(#[from] overrides::OverrideError),
     #[error(transparent)]
     Output(#[from] FolderError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error("--at {at}: the path ends after {end:.2} s; give a smaller number of seconds")]
+    BeyondPath { at: f64, end: f64 },
+}
+
+impl Failure {
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Render(_) => NO_ADAPTER,
+            _ => BAD_INPUT,
+        }
+    }
 }
 
 /// Runs the command that the process was started with.
@@ -78,7 +101,10 @@ pub fn run() -> ExitCode {
     bug::exit_on_panic();
     let outcome = match Cli::parse().command {
         Command::Check(check) => check.run(),
+        Command::Difficulty(difficulty) => difficulty.run(),
+        Command::Doctor(doctor) => doctor.run(),
         Command::Record(record) => record.run(),
+        Command::Render(render) => render.run(),
         Command::Replay(replay) => replay.run(),
         Command::Schema(schema) => schema.run(),
     };
@@ -86,7 +112,7 @@ pub fn run() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             tell(&format!("error: {failure}"));
-            ExitCode::from(BAD_INPUT)
+            ExitCode::from(failure.exit_code())
         }
     }
 }

@@ -118,6 +118,11 @@ impl Kinect {
         [self.colour_exposure.exposure(), self.infrared_exposure.exposure()]
     }
 
+    /// Switches the device off and on again: before the next frame the exposures fit the light anew.
+    pub fn restart(&mut self) {
+        self.settled = false;
+    }
+
     /// Takes one frame. `world_from_infrared`: the device's pose over the frame interval, in whose middle the exposures
     /// have theirs. Equal sequences of calls give equal bytes.
     ///
@@ -209,7 +214,7 @@ fn image<P>((width, height): (usize, usize), pixels: Vec<P>) -> Image<P> {
 }
 
 /// nalgebra, the estimator's mathematics, to glam, the simulation's.
-fn affine(isometry: &Isometry3<f64>) -> DAffine3 {
+pub(crate) fn affine(isometry: &Isometry3<f64>) -> DAffine3 {
     let rotation = isometry.rotation.coords;
     let translation = isometry.translation.vector;
     DAffine3::from_rotation_translation(

@@ -59,6 +59,16 @@ pub struct Adapter {
     pub backend: String,
 }
 
+impl Adapter {
+    /// The adapter that everything is rendered with.
+    ///
+    /// # Errors
+    /// There is none, or it does not work.
+    pub fn find() -> Result<Self, RenderError> {
+        Device::open().map(|device| device.adapter)
+    }
+}
+
 impl Device {
     pub fn open() -> Result<Self, RenderError> {
         let adapter = [wgpu::Backends::VULKAN, wgpu::Backends::GL].into_iter().find_map(first_adapter);

@@ -4,6 +4,7 @@ use glam::DVec3;
 use nalgebra::Point2;
 
 use super::{Fault, Floor, Robot, Scenario, WorldName};
+use crate::kinect::Imaging;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
 use crate::world::bake::{Effort, bake_cached, cache_folder};
@@ -46,6 +47,13 @@ impl Robot {
 impl From<super::Light> for Brightness {
     fn from(light: super::Light) -> Self {
         Self { electric: f32::from(u8::from(light.lamps)), daylight: light.daylight_scale as f32 }
+    }
+}
+
+impl From<super::Kinect> for Imaging {
+    fn from(kinect: super::Kinect) -> Self {
+        let super::Kinect { noise, motion_blur, .. } = kinect;
+        Self { noise, motion_blur, rolling_shutter: motion_blur, ..Self::default() }
     }
 }
 
