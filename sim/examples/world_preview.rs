@@ -13,7 +13,7 @@ use sunblind_sim::world::bake::{Effort, bake_cached};
 use sunblind_sim::world::laboratory::{laboratory, loop_waypoints};
 use sunblind_sim::world::material::substance::{encoded, linear};
 use sunblind_sim::world::rays::Rays;
-use sunblind_sim::world::{TEXTURE_SIZE, World};
+use sunblind_sim::world::{Brightness, TEXTURE_SIZE, World};
 
 /// A Kinect's picture at half resolution: width, height, focal length, pixels.
 const VIEW: (u32, u32, f64) = (320, 240, 262.5);
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         start.elapsed()
     );
     let start = Instant::now();
-    let origin = bake_cached(&mut world, &Effort::default(), &folder.join("cache"), &|_| ())?;
+    let origin = bake_cached(&mut world, &Effort::default(), Brightness::FULL, &folder.join("cache"), &|_| ())?;
     println!("light: {origin:?} in {:.1?}", start.elapsed());
 
     let rays = Rays::new(&world.objects).ok_or("an empty world")?;

@@ -1,6 +1,6 @@
 //! Runs, records, replays and judges localisation. `record` reads and writes recordings, `runner` drives the
 //! estimator (the only room that does), `evaluation` holds it against the truth, `report` shows the result,
-//! `new_folder` puts it in its place whole or not at all, `cli` is the command line; `textured_room` makes a small
+//! `new_folder` puts it in its place whole or not at all, `false_colour` shows depth, `cli` is the command line; `textured_room` makes a small
 //! recording with known truth on the CPU.
 //!
 //! What is simulated: `world` is the place, `robot` the device, `physics` moves the one through the other (the only
@@ -8,6 +8,7 @@
 
 pub mod cli;
 pub mod evaluation;
+mod false_colour;
 pub mod kinect;
 pub mod new_folder;
 pub mod physics;

@@ -2,9 +2,13 @@
 
 pub mod bug;
 mod check;
+mod contact_sheet;
+mod difficulty;
+mod doctor;
 mod output;
 mod overrides;
 mod record;
+mod render;
 mod replay;
 mod run;
 mod scenario_args;
@@ -42,7 +46,7 @@ Exit codes:
   0   done, and every expectation held
   1   an expectation was missed
   2   bad usage, or a scenario or recording that can't be used; the message says where and what to do
-  3   no graphics adapter
+  3   no graphics adapter that works; `sunblind doctor` says what to install
   70  a bug in sunblind; please report it";
 
 #[derive(Parser)]
@@ -55,13 +59,16 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Check),
+    Difficulty(difficulty::Difficulty),
+    Doctor(doctor::Doctor),
     Record(record::Record),
+    Render(render::Render),
     Replay(replay::Replay),
     Run(run::Run),
     Schema(schema::Schema),
 }
 
-/// Why a command failed: always something about what it was given.
+/// Why a command failed: something about what it was given, or nothing to render with.
 #[derive(Debug, Error)]
 enum Failure {
     #[error(transparent)]
@@ -86,10 +93,12 @@ enum Failure {
     Override(#[from] overrides::OverrideError),
     #[error(transparent)]
     Output(#[from] FolderError),
+    #[error("--at {at}: the path ends after {end:.2} s; give a smaller number of seconds")]
+    BeyondPath { at: f64, end: f64 },
 }
 
 impl Failure {
-    fn code(&self) -> u8 {
+    fn exit_code(&self) -> u8 {
         match self {
             Self::Missed { .. } => MISSED,
             Self::Render(_) => NO_ADAPTER,
@@ -103,7 +112,10 @@ pub fn run() -> ExitCode {
     bug::exit_on_panic();
     let outcome = match Cli::parse().command {
         Command::Check(check) => check.run(),
+        Command::Difficulty(difficulty) => difficulty.run(),
+        Command::Doctor(doctor) => doctor.run(),
         Command::Record(record) => record.run(),
+        Command::Render(render) => render.run(),
         Command::Replay(replay) => replay.run(),
         Command::Run(run) => run.run(),
         Command::Schema(schema) => schema.run(),
@@ -112,7 +124,7 @@ pub fn run() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             tell(&format!("error: {failure}"));
-            ExitCode::from(failure.code())
+            ExitCode::from(failure.exit_code())
         }
     }
 }

@@ -115,7 +115,7 @@ fn localizers(params: EstimatorParams, rig: &Rig) -> Result<Vec<Driven>, ParamEr
 const PAPER_LABEL: &str = "visual odometry, as in the paper";
 
 /// Frames, frames a second and time left, on standard error; nothing where that is no terminal.
-fn progress_bar(frames: usize) -> ProgressBar {
+pub(super) fn progress_bar(frames: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames  {per_second}/s  {eta} left")
         .expect("the template is well formed")
         .with_key("per_second", |state: &ProgressState, out: &mut dyn Write| {

@@ -9,23 +9,25 @@ use crate::scenario::meaning::Obstacles;
 use crate::scenario::{Scenario, ScenarioError, Source};
 use crate::simulator::{Simulator, SimulatorError};
 use crate::world::World;
-use crate::world::bake::{Effort, bake_cached};
 
-/// The scenario's world with its light. The first time this takes a while; progress is shown.
+/// The scenario's world under its light.
 ///
 /// # Errors
 /// When something stands in the path's way.
 pub(super) fn world(source: &Source, scenario: &Scenario) -> Result<World, ScenarioError> {
-    let mut world = scenario.world.name.build();
-    let obstacles = Obstacles::of(&world);
+    // Before the light, which may take a while.
+    let obstacles = Obstacles::of(&scenario.world.name.build());
     scenario.check_way(|from, to| obstacles.leave_free(from, to)).map_err(|fault| source.blame(fault))?;
-    let style = ProgressStyle::with_template("lighting the world {wide_bar} {percent} %, {eta} left; once only");
-    let bar = ProgressBar::new(1000).with_style(style.expect("the template is well formed"));
-    let _ = bake_cached(&mut world, &Effort::default(), std::path::Path::new("/tmp/sunblind-cache"), &|done| {
-        bar.set_position((1000.0 * done) as u64)
-    });
+    Ok(lit_world(scenario))
+}
+
+/// The scenario's world under its light, with a bar for as long as that takes.
+pub(super) fn lit_world(scenario: &Scenario) -> World {
+    let style = ProgressStyle::with_template("light, once for a world {wide_bar} {percent} %");
+    let bar = ProgressBar::new(100).with_style(style.expect("the template is well formed"));
+    let world = scenario.lit_world(&|share| bar.set_position((100.0 * share) as u64));
     bar.finish_and_clear();
-    Ok(world)
+    world
 }
 
 /// The robot at its start.

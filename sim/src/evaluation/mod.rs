@@ -92,6 +92,31 @@ pub fn evaluate(frames: &[FrameLog], truth: &[StampedPose]) -> Option<Evaluation
     })
 }
 
+/// A motion, or what one is wrong by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Metres.
+    pub translation: f64,
+    /// Radians.
+    pub rotation: f64,
+}
+
+impl Step {
+    fn of(motion: &Isometry3<f64>) -> Self {
+        Self { translation: translation(motion), rotation: rotation(motion) }
+    }
+}
+
+/// The true motion from each of `frames` to the next, and what the estimated one is wrong by (the relative pose error
+/// over one frame). Of frames that have truth.
+pub fn frame_steps(frames: &[FrameLog], truth: &[StampedPose]) -> Vec<(Step, Step)> {
+    let step = |pair: &[PosePair]| {
+        let motion = pair[0].truth.inv_mul(&pair[1].truth);
+        (Step::of(&motion), Step::of(&relative_error(&pair[0], &pair[1])))
+    };
+    pair_by_time(frames, truth).windows(2).map(step).collect()
+}
+
 /// The pose of `truth` (in time order) at exactly `time`.
 pub fn true_pose_at(truth: &[StampedPose], time: Timestamp) -> Option<Isometry3<f64>> {
     let index = truth.binary_search_by_key(&time, |pose| pose.time).ok()?;

@@ -117,6 +117,11 @@ impl Kinect {
         [self.colour_exposure.exposure(), self.infrared_exposure.exposure()]
     }
 
+    /// Switches the device off and on again: before the next frame the exposures fit the light anew.
+    pub fn restart(&mut self) {
+        self.settled = false;
+    }
+
     /// Takes one frame. `world_from_infrared`: the device's pose over the frame interval, in whose middle the exposures
     /// have theirs. Equal sequences of calls give equal bytes.
     ///

@@ -34,7 +34,7 @@ pub enum RenderError {
     /// More textures than the adapter holds.
     #[error("the world has {materials} materials; this graphics adapter holds {limit}")]
     TooManyMaterials {
-        /// Those of the world, and one for its lamps.
+        /// Those of the world, and one that is always there.
         materials: usize,
         /// The adapter's limit.
         limit: u32,
@@ -57,6 +57,16 @@ pub struct Adapter {
     pub driver: String,
     /// The interface it is spoken to through.
     pub backend: String,
+}
+
+impl Adapter {
+    /// The adapter that everything is rendered with.
+    ///
+    /// # Errors
+    /// There is none, or it does not work.
+    pub fn find() -> Result<Self, RenderError> {
+        Device::open().map(|device| device.adapter)
+    }
 }
 
 impl Device {

@@ -8,7 +8,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::device::{Device, RenderError};
 use super::texture::albedo_array;
-use crate::world::{Lamp, Mesh, World};
+use crate::world::{Mesh, World};
 
 /// The geometry and albedos of a world.
 pub(super) struct Scene {
@@ -53,10 +53,6 @@ impl Scene {
         let mut geometry = Geometry::default();
         for object in &world.objects {
             geometry.add(&object.mesh, object.material as u32);
-        }
-        for lamp in &world.lamps {
-            // Past the last material lies a white one.
-            geometry.add(&panel(lamp), world.materials.len() as u32);
         }
         let buffer = |label, contents: &[u8], usage| {
             // An empty world still needs buffers.
@@ -142,20 +138,6 @@ impl Geometry {
         self.indices.extend_from_slice(&mesh.triangles);
         let indices = first_index..3 * self.indices.len() as u32;
         self.parts.push(Part { bounds: Bounds::of(&mesh.positions), indices, first_vertex });
-    }
-}
-
-/// A lamp's panel. A white surface under an irradiance equal to the lamp's exitance looks as the lamp does.
-fn panel(lamp: &Lamp) -> Mesh {
-    let [a, b] = lamp.half_edges.map(Vec3::from);
-    let centre = Vec3::from(lamp.centre);
-    let corners = [centre - a - b, centre + a - b, centre + a + b, centre - a + b];
-    Mesh {
-        positions: corners.map(|corner| corner.to_array()).to_vec(),
-        normals: vec![a.cross(b).normalize_or_zero().to_array(); 4],
-        uvs: vec![[0.0; 2]; 4],
-        irradiance: vec![lamp.exitance; 4],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
     }
 }
 

@@ -7,7 +7,7 @@ use crate::world::{Material, TEXTURE_SIZE};
 
 const LEVELS: u32 = TEXTURE_SIZE.ilog2() + 1;
 
-/// All materials, and after them one white layer for lamps.
+/// All materials, and after them a white one that nothing is made of: OpenGL takes an array of one layer for none.
 pub(super) fn albedo_array(gpu: &Device, materials: &[Material]) -> Result<wgpu::TextureView, RenderError> {
     let layers = materials.len() + 1;
     let limit = gpu.device.limits().max_texture_array_layers;

@@ -14,6 +14,7 @@ use sunblind_estimator::odometry::FeatureTrack;
 use super::format::{duration, length};
 use super::judged::Judged;
 use super::timing::quantile;
+use crate::false_colour;
 use crate::runner::log::Snapshot;
 
 /// Columns of an embedded image.
@@ -21,8 +22,6 @@ const WIDTH: u32 = 320;
 const JPEG_QUALITY: u8 = 80;
 /// What a depth pixel without a value is drawn in: a grey, which the colours of depth never are.
 const NO_VALUE: [u8; 3] = [128, 132, 138];
-/// Near is bright: viridis, legible to the colour-blind and in greyscale, backwards.
-const DEPTH_COLOURS: colorous::Gradient = colorous::VIRIDIS;
 
 /// All pictures, and the key to their depth.
 #[derive(Serialize)]
@@ -71,7 +70,7 @@ pub(super) fn pictures(judged: &Judged) -> io::Result<Option<Pictures>> {
         pictures: pictures.collect::<io::Result<_>>()?,
         nearest: length(nearest.into()),
         farthest: length(farthest.into()),
-        gradient: (0..=8).map(|step| css(depth_colour(step as f32 / 8.0))).collect::<Vec<_>>().join(","),
+        gradient: (0..=8).map(|step| css(false_colour::of_depth(step as f32 / 8.0))).collect::<Vec<_>>().join(","),
         no_value: css(NO_VALUE),
         any_tracks: snapshots.iter().any(|snapshot| !snapshot.tracks.is_empty()),
     }))
@@ -140,18 +139,13 @@ fn small_depth(image: &Image<f32>, nearest: f32, farthest: f32) -> RgbImage {
     let small = small_size(width, height);
     RgbImage::from_fn(small.0, small.1, |x, y| {
         let z = image.at((x * width / small.0) as usize, (y * height / small.1) as usize);
-        image::Rgb(if has_value(z) { depth_colour((z - nearest) / (farthest - nearest)) } else { NO_VALUE })
+        image::Rgb(if has_value(z) { false_colour::of_depth((z - nearest) / (farthest - nearest)) } else { NO_VALUE })
     })
 }
 
 /// What no wider than [`WIDTH`] is stays as it is, and so does an image without rows.
 fn small_size(width: u32, height: u32) -> (u32, u32) {
     if width <= WIDTH || height == 0 { (width, height) } else { (WIDTH, (WIDTH * height / width).max(1)) }
-}
-
-/// Of a depth between the nearest (0) and the farthest (1).
-fn depth_colour(share: f32) -> [u8; 3] {
-    DEPTH_COLOURS.eval_continuous(1.0 - f64::from(share.clamp(0.0, 1.0))).into_array()
 }
 
 fn css([r, g, b]: [u8; 3]) -> String {

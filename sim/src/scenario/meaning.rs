@@ -1,14 +1,16 @@
-//! What a scenario's names stand for: the world, the floors, the robot.
+//! What a scenario's names stand for: the world and its light, the floors, the robot.
 
 use glam::DVec3;
 use nalgebra::Point2;
 
 use super::{Fault, Floor, Robot, Scenario, WorldName};
+use crate::kinect::Imaging;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
+use crate::world::bake::{Effort, bake_cached, cache_folder};
 use crate::world::laboratory::laboratory;
 use crate::world::rays::Rays;
-use crate::world::{Object, World};
+use crate::world::{Brightness, Object, World};
 
 /// A world is the same in each run: a scenario's seed moves noise and slip, not furniture.
 const WORLD_SEED: u64 = 1;
@@ -42,7 +44,29 @@ impl Robot {
     }
 }
 
+impl From<super::Light> for Brightness {
+    fn from(light: super::Light) -> Self {
+        Self { electric: f32::from(u8::from(light.lamps)), daylight: light.daylight_scale as f32 }
+    }
+}
+
+impl From<super::Kinect> for Imaging {
+    fn from(kinect: super::Kinect) -> Self {
+        let super::Kinect { noise, motion_blur, .. } = kinect;
+        Self { noise, motion_blur, rolling_shutter: motion_blur, ..Self::default() }
+    }
+}
+
 impl Scenario {
+    /// The world under the scenario's light. That takes half a minute once for a world, and is kept in the user's
+    /// [`cache_folder`]. `progress` is told the share done, 0 to 1, from any thread.
+    pub fn lit_world(&self, progress: &(dyn Fn(f32) + Sync)) -> World {
+        let mut world = self.world.name.build();
+        // Where nothing can be kept the light is computed each time, and is the same.
+        let _ = bake_cached(&mut world, &Effort::default(), self.light.into(), &cache_folder(), progress);
+        world
+    }
+
     /// The robot with its Kinect mounted, and with a gyro if one is wanted.
     ///
     /// # Errors

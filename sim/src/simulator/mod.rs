@@ -12,7 +12,7 @@ use sunblind_estimator::{Measurement, MeasurementData, Timestamp};
 use thiserror::Error;
 
 use crate::evaluation::StampedPose;
-use crate::kinect::{self, FRAME_INTERVAL, Imaging, Kinect};
+use crate::kinect::{self, FRAME_INTERVAL, Kinect};
 use crate::physics::{STEP, Simulation, WorldError};
 use crate::random::stream;
 use crate::record::{Arrival, Body, Calibration, Latency, Sensor};
@@ -87,13 +87,7 @@ impl Simulator {
             .into_iter()
             .fold(Latency::default(), |latency, sensor| latency.with(sensor, IMAGES_TAKE))
             .with(Sensor::Wheels, WHEELS_TAKE);
-        let imaging = Imaging {
-            noise: scenario.kinect.noise,
-            motion_blur: scenario.kinect.motion_blur,
-            rolling_shutter: scenario.kinect.motion_blur,
-            ..Imaging::default()
-        };
-        let kinect = Kinect::new(world, unit, imaging, stream(scenario.seed, "kinect", 0).next_u64())?;
+        let kinect = Kinect::new(world, unit, scenario.kinect.into(), stream(scenario.seed, "kinect", 0).next_u64())?;
         let mut simulator = Self {
             physics,
             eye: Eye::open(kinect, scenario.kinect.truth_depth),

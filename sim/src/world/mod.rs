@@ -23,7 +23,7 @@ pub struct World {
     pub objects: Vec<Object>,
     /// What it is made of.
     pub materials: Vec<Material>,
-    /// What shines.
+    /// What shines. Nobody sees a lamp itself: where one is in view, an object is its cover.
     pub lamps: Vec<Lamp>,
 }
 
@@ -75,6 +75,44 @@ pub struct Lamp {
     pub centre: [f32; 3],
     /// From the middle to the middle of one edge, and of the edge beside it; it shines along their cross product.
     pub half_edges: [[f32; 3]; 2],
-    /// Luminous exitance by channel, lux: R, G, B; then radiant exitance at 830 nm, W m⁻² nm⁻¹.
+    /// Luminous exitance by channel, lux: R, G, B; then radiant exitance at 830 nm, W m⁻² nm⁻¹. At full brightness.
     pub exitance: [f32; 4],
+    /// What it shines with.
+    pub source: LightSource,
+}
+
+/// What lamps are switched and dimmed by, all of one source together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightSource {
+    /// The mains.
+    Electric,
+    /// The sky.
+    Daylight,
+}
+
+impl LightSource {
+    /// All there are.
+    pub const ALL: [Self; 2] = [Self::Electric, Self::Daylight];
+}
+
+/// How bright the lamps of each source are, in multiples of their exitance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Brightness {
+    /// Of those on the mains.
+    pub electric: f32,
+    /// Of windows.
+    pub daylight: f32,
+}
+
+impl Brightness {
+    /// As the world has them.
+    pub const FULL: Self = Self { electric: 1.0, daylight: 1.0 };
+
+    /// Of one source.
+    pub fn of(&self, source: LightSource) -> f32 {
+        match source {
+            LightSource::Electric => self.electric,
+            LightSource::Daylight => self.daylight,
+        }
+    }
 }

@@ -13,14 +13,18 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::rays::Rays;
-use super::{Lamp, World};
+use super::{Brightness, Lamp, LightSource, World};
 use gather::Gathered;
 use surface::{Points, buried_neighbours};
 
-pub use cache::{Origin, bake_cached};
+pub use cache::{Origin, bake_cached, cache_folder};
 
 /// A quantity in the four channels: R, G, B, 830 nm.
 type Bands = [f32; 4];
+
+/// The irradiance on every vertex, in the objects' order, by each of [`LightSource::ALL`] alone at full brightness.
+/// Light adds up, so any brightness is had from it.
+type BySource = [Vec<Bands>; LightSource::ALL.len()];
 
 /// How much work the light is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,16 +46,25 @@ impl Default for Effort {
 
 /// Fills in every vertex's irradiance. Equal bytes whatever the number of threads. `progress` is told the share done,
 /// 0 to 1, from any thread.
-pub fn bake(world: &mut World, effort: &Effort, progress: &(dyn Fn(f32) + Sync)) {
-    let Some(rays) = Rays::new(&world.objects) else { return };
+pub fn bake(world: &mut World, effort: &Effort, brightness: Brightness, progress: &(dyn Fn(f32) + Sync)) {
+    let light = by_source(world, effort, progress);
+    write(world, &light, brightness);
+    progress(1.0);
+}
+
+fn by_source(world: &World, effort: &Effort, progress: &(dyn Fn(f32) + Sync)) -> BySource {
+    let Some(rays) = Rays::new(&world.objects) else { return BySource::default() };
     let points = Points::of(world);
     let done = AtomicUsize::new(0);
-    let (direct, gathered): (Vec<Bands>, Vec<Gathered>) = (0..points.len())
+    let (direct, gathered): (Vec<[Bands; 2]>, Vec<Gathered>) = (0..points.len())
         .into_par_iter()
         .map(|vertex| {
             let (at, normal) = points.sample(vertex);
             let gathered = Gathered::cast(&rays, &world.lamps, at, normal, effort.rays);
-            let direct = if gathered.buried() { [0.0; 4] } else { direct(&rays, &world.lamps, at, normal, effort) };
+            let direct = LightSource::ALL.map(|source| match gathered.buried() {
+                true => [0.0; 4],
+                false => direct(&rays, lamps_of(world, source), at, normal, effort),
+            });
             let count = 1 + done.fetch_add(1, Ordering::Relaxed);
             if count.is_multiple_of(256) {
                 progress(count as f32 / points.len() as f32);
@@ -60,20 +73,26 @@ pub fn bake(world: &mut World, effort: &Effort, progress: &(dyn Fn(f32) + Sync))
         })
         .unzip();
     let refills = buried_neighbours(&points, &gathered);
-    let mut light = direct.clone();
-    for _ in 0..effort.bounces {
+    LightSource::ALL.map(|source| {
+        let direct: Vec<Bands> = direct.iter().map(|by_source| by_source[source as usize]).collect();
+        let mut light = direct.clone();
+        for _ in 0..effort.bounces {
+            refill(&mut light, &refills);
+            let radiosity = points.triangle_radiosity(&light);
+            light = direct
+                .par_iter()
+                .zip(&gathered)
+                .map(|(&direct, gathered)| add(direct, gathered.mean(&radiosity)))
+                .collect();
+        }
         refill(&mut light, &refills);
-        let radiosity = points.triangle_radiosity(&light);
-        light = direct
-            .par_iter()
-            .zip(&gathered)
-            .map(|(&direct, gathered)| add(direct, gathered.mean(&radiosity)))
-            .collect();
-    }
-    refill(&mut light, &refills);
-    points.add_glow(&mut light, &world.lamps);
-    write(world, &light);
-    progress(1.0);
+        points.add_glow(&mut light, lamps_of(world, source));
+        light
+    })
+}
+
+fn lamps_of(world: &World, source: LightSource) -> impl Iterator<Item = &Lamp> + Clone {
+    world.lamps.iter().filter(move |lamp| lamp.source == source)
 }
 
 fn add(a: Bands, b: Bands) -> Bands {
@@ -81,7 +100,7 @@ fn add(a: Bands, b: Bands) -> Bands {
 }
 
 /// Irradiance on a point straight from the lamps, each a grid of small discs.
-fn direct(rays: &Rays, lamps: &[Lamp], at: DVec3, normal: DVec3, effort: &Effort) -> Bands {
+fn direct<'a>(rays: &Rays, lamps: impl Iterator<Item = &'a Lamp>, at: DVec3, normal: DVec3, effort: &Effort) -> Bands {
     let mut sum = [0.0; 4];
     for lamp in lamps {
         let [centre, a, b] = [lamp.centre, lamp.half_edges[0], lamp.half_edges[1]].map(|v| Vec3::from(v).as_dvec3());
@@ -117,13 +136,17 @@ fn refill(light: &mut [Bands], refills: &[(usize, Vec<usize>)]) {
     }
 }
 
-/// Hands the irradiance of all vertices, in the objects' order, to the meshes.
-fn write(world: &mut World, light: &[Bands]) {
-    let mut rest = light;
+/// Hands the irradiance of all vertices to the meshes.
+fn write(world: &mut World, light: &BySource, brightness: Brightness) {
+    let shares = LightSource::ALL.map(|source| brightness.of(source));
+    let mut vertex = 0;
     for object in &mut world.objects {
-        let (own, others) = rest.split_at(object.mesh.positions.len());
-        object.mesh.irradiance = own.to_vec();
-        rest = others;
+        let count = object.mesh.positions.len();
+        let sum = |vertex: usize| -> Bands {
+            std::array::from_fn(|band| light.iter().zip(shares).map(|(light, share)| share * light[vertex][band]).sum())
+        };
+        object.mesh.irradiance = (vertex..vertex + count).map(sum).collect();
+        vertex += count;
     }
 }
 

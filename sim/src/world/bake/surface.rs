@@ -80,9 +80,9 @@ impl Points {
     }
 
     /// A lamp's cover shines: it gets the irradiance that makes it shed the lamp's exitance.
-    pub fn add_glow(&self, light: &mut [Bands], lamps: &[Lamp]) {
+    pub fn add_glow<'a>(&self, light: &mut [Bands], lamps: impl Iterator<Item = &'a Lamp> + Clone) {
         for (vertex, light) in light.iter_mut().enumerate() {
-            for lamp in lamps.iter().filter(|lamp| covers(lamp, self.positions[vertex], self.normals[vertex])) {
+            for lamp in lamps.clone().filter(|lamp| covers(lamp, self.positions[vertex], self.normals[vertex])) {
                 let glow = std::array::from_fn(|band| lamp.exitance[band] / self.albedos[vertex][band]);
                 *light = add(*light, glow);
             }

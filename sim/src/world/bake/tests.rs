@@ -6,7 +6,7 @@ use super::*;
 use crate::world::material::mean_albedo;
 use crate::world::refine::refine;
 use crate::world::shape::Mapping;
-use crate::world::{Material, Mesh, Object, TEXTURE_SIZE};
+use crate::world::{Brightness, LightSource, Material, Mesh, Object, TEXTURE_SIZE};
 
 const QUICK: Effort = Effort { rays: 128, bounces: 4, lamp_step: 0.3 };
 const METRIC: Mapping = Mapping::Fitted;
@@ -30,6 +30,7 @@ fn room(level: u8) -> World {
         centre: [2.0, 2.0, 2.9],
         half_edges: [[0.0, 0.5, 0.0], [0.5, 0.0, 0.0]],
         exitance: [1000.0, 500.0, 250.0, 2.0],
+        source: LightSource::Electric,
     };
     World { name: "room".into(), objects: vec![object("walls", mesh)], materials: vec![grey(level)], lamps: vec![lamp] }
 }
@@ -48,7 +49,7 @@ fn flux(object: &Object) -> [f32; 4] {
 #[test]
 fn a_closed_box_receives_what_its_lamp_sheds_and_again_what_its_walls_return() {
     let mut world = room(188);
-    bake(&mut world, &QUICK, &|_| ());
+    bake(&mut world, &QUICK, Brightness::FULL, &|_| ());
     let albedo = mean_albedo(&world.materials[0]);
     let received = flux(&world.objects[0]);
     for band in 0..4 {
@@ -68,7 +69,7 @@ fn a_wall_keeps_the_light_out() {
         world.objects.push(object("partition", Mesh::cuboid(min.into(), max.into(), METRIC)));
     }
     world.objects.push(object("table", Mesh::cuboid(vec3(0.6, 0.6, 0.6), vec3(1.4, 1.4, 0.7), METRIC)));
-    bake(&mut world, &QUICK, &|_| ());
+    bake(&mut world, &QUICK, Brightness::FULL, &|_| ());
     let table = &world.objects[3].mesh;
     // Of some 50 lx outside. A floor triangle that reaches under the partition takes the mean of its corners with it.
     assert!(table.irradiance.iter().all(|light| light[0] < 0.1));
@@ -85,7 +86,7 @@ fn a_wall_keeps_the_light_out() {
 fn the_back_of_a_lamp_is_dark() {
     let mut world = room(128);
     world.lamps[0].centre = [2.0, 2.0, 1.5];
-    bake(&mut world, &Effort { bounces: 0, ..QUICK }, &|_| ());
+    bake(&mut world, &Effort { bounces: 0, ..QUICK }, Brightness::FULL, &|_| ());
     let walls = &world.objects[0].mesh;
     for (at, light) in walls.positions.iter().zip(&walls.irradiance) {
         assert!(if at[2] > 1.5 { light[0] == 0.0 } else { light[0] >= 0.0 }, "{at:?}: {light:?}");
@@ -96,7 +97,7 @@ fn the_back_of_a_lamp_is_dark() {
 fn a_thing_on_the_floor_darkens_the_floor_beside_it() {
     let mut world = room(200);
     world.objects.push(object("chest", Mesh::cuboid(vec3(1.0, 1.0, 0.0), vec3(2.0, 1.5, 1.5), METRIC)));
-    bake(&mut world, &QUICK, &|_| ());
+    bake(&mut world, &QUICK, Brightness::FULL, &|_| ());
     let walls = &world.objects[0].mesh;
     let nearest = |x: f32, y: f32| {
         let far = |at: &[f32; 3]| vec3(x, y, 0.0).distance((*at).into());
@@ -113,8 +114,48 @@ fn a_lamps_cover_sheds_its_exitance() {
     let mut world = room(255);
     let cover = Mesh::quad(vec3(1.5, 1.5, 2.905), Vec3::X, Vec3::Y, METRIC);
     world.objects.push(object("cover", cover));
-    bake(&mut world, &QUICK, &|_| ());
+    bake(&mut world, &QUICK, Brightness::FULL, &|_| ());
     assert!(world.objects[1].mesh.irradiance.iter().all(|light| light[0] >= 1000.0));
+}
+
+/// The room with a window's panel beside its lamp.
+fn room_with_window() -> World {
+    let mut world = room(200);
+    let daylight = Lamp { centre: [1.0, 1.0, 2.5], source: LightSource::Daylight, ..world.lamps[0].clone() };
+    world.lamps.push(daylight);
+    world
+}
+
+#[test]
+fn each_source_is_dimmed_for_itself_and_both_add_up() {
+    let lit = |electric: f32, daylight: f32| {
+        let mut world = room_with_window();
+        bake(&mut world, &QUICK, Brightness { electric, daylight }, &|_| ());
+        world.objects.remove(0).mesh.irradiance
+    };
+    let (lamp, window, both) = (lit(1.0, 0.0), lit(0.0, 1.0), lit(0.5, 2.0));
+    assert!(lamp != window && lit(0.0, 0.0).as_flattened().iter().all(|&light| light == 0.0));
+    for vertex in 0..both.len() {
+        for band in 0..4 {
+            let sum = 0.5 * lamp[vertex][band] + 2.0 * window[vertex][band];
+            assert!((both[vertex][band] - sum).abs() <= 1e-5 * sum.abs(), "vertex {vertex}");
+        }
+    }
+}
+
+#[test]
+fn another_brightness_is_served_from_the_same_cache() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let night = Brightness { daylight: 0.0, ..Brightness::FULL };
+    let lit = |brightness| {
+        let mut world = room_with_window();
+        let origin = bake_cached(&mut world, &QUICK, brightness, folder.path(), &|_| ()).expect("writable");
+        (origin, world.objects.remove(0).mesh.irradiance)
+    };
+    assert_eq!(lit(Brightness::FULL).0, Origin::Computed);
+    let mut alone = room_with_window();
+    bake(&mut alone, &QUICK, night, &|_| ());
+    assert_eq!(lit(night), (Origin::Cache, alone.objects.remove(0).mesh.irradiance));
 }
 
 #[test]
@@ -122,7 +163,7 @@ fn the_number_of_threads_changes_no_byte() {
     let baked = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let mut world = room(200);
-        pool.install(|| bake(&mut world, &QUICK, &|_| ()));
+        pool.install(|| bake(&mut world, &QUICK, Brightness::FULL, &|_| ()));
         world.objects.remove(0).mesh.irradiance
     };
     let bits = |light: Vec<[f32; 4]>| -> Vec<u32> { light.into_iter().flatten().map(f32::to_bits).collect() };
@@ -134,7 +175,7 @@ fn the_cache_gives_the_same_light_and_survives_damage() {
     let folder = tempfile::tempdir().expect("a folder");
     let run = |effort: &Effort| {
         let mut world = room(200);
-        let origin = bake_cached(&mut world, effort, folder.path(), &|_| ()).expect("writable");
+        let origin = bake_cached(&mut world, effort, Brightness::FULL, folder.path(), &|_| ()).expect("writable");
         (origin, world.objects.remove(0).mesh.irradiance)
     };
     let (first, light) = run(&QUICK);

@@ -1,0 +1,239 @@
+//! `sunblind render`: what a scenario's Kinect sees, as pictures.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use glam::DAffine3;
+use image::{GrayImage, ImageBuffer, Luma, RgbImage};
+use nalgebra::{Isometry3, Vector3};
+use sunblind_estimator::fusion::PlanarPose;
+use sunblind_estimator::guidance::PathPoint;
+use sunblind_estimator::image::Image;
+
+use super::contact_sheet::{self, Row};
+use super::scenario_args::ScenarioArgs;
+use super::{Failure, answer, stage};
+use crate::kinect::calibration::Calibration;
+use crate::kinect::{FRAME_INTERVAL, Kinect};
+use crate::new_folder::{FolderError, Kind, NewFolder};
+use crate::render::{RenderError, Sweep};
+use crate::scenario::{AnyScenario, Fault, Scenario};
+use crate::world::World;
+
+const HELP: &str = "\
+Examples:
+  sunblind render scenarios/lab_loop.toml --at 20 --out out/view
+      what the Kinect sees 20 s after the start
+  sunblind render scenarios/lab_loop.toml --at 0 --at 10 --at 20 --out out/views --set light.lamps=false
+      three places by daylight, one below the other on the contact sheet
+
+The robot is not simulated: the Kinect is put where the path leads in that time at the path's speed, moving as one who
+drives it would. The folder holds for each instant, in a folder of its own (20s/):
+  rgb.png          the colour image, 8-bit sRGB
+  ir.png           the infrared image with the projector's dots; 8-bit, the square root of the 10-bit values, so that
+                   shade shows as well as dots
+  depth.png        what the device makes of it: 16-bit, millimetres, 0 = none, in the infrared camera's pixels
+  true_depth.png   how far away things are: 16-bit, millimetres, 0 = nothing there
+and contact_sheet.png with all of them: depth in colours from bright (near) to dark, holes black. It appears whole at the
+end or not at all; earlier pictures there are replaced. The light of a world is computed once, in about half a minute,
+and kept: `sunblind doctor` says where.";
+
+/// Show what the Kinect of a scenario sees at some instants.
+#[derive(Args)]
+#[command(after_long_help = HELP)]
+pub(super) struct Render {
+    /// The scenario's file
+    scenario: PathBuf,
+    /// Seconds after the start; may be repeated
+    #[arg(long = "at", value_name = "SECONDS", default_value = "0", value_parser = seconds)]
+    instants: Vec<f64>,
+    /// Where the pictures go
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    changes: ScenarioArgs,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0);
+    value.ok_or_else(|| "write a number of seconds, 0 or more".to_owned())
+}
+
+static PICTURES: Kind = Kind { whose: "pictures", mark: "a folder with a contact_sheet.png", is: is_pictures };
+
+const SHEET: &str = "contact_sheet.png";
+
+/// Nothing beside the sheet but folders with pictures.
+fn is_pictures(folder: &Path) -> bool {
+    let ours = |entry: io::Result<std::fs::DirEntry>| {
+        entry.is_ok_and(|entry| entry.file_name() == SHEET || entry.path().join("true_depth.png").is_file())
+    };
+    folder.join(SHEET).is_file() && std::fs::read_dir(folder).is_ok_and(|mut entries| entries.all(ours))
+}
+
+impl Render {
+    pub fn run(&self) -> Result<(), Failure> {
+        let (source, scenario) = self.changes.load(&self.scenario)?;
+        let AnyScenario::Robot(scenario) = scenario else {
+            let problem = "only a world that a robot drives through can be rendered; write name = \"laboratory\", or see \
+                           the textured room with `sunblind record`";
+            return Err(source.blame(Fault::new("world.name", problem)).into());
+        };
+        let path = scenario.path.shape().map_err(|fault| source.blame(fault))?;
+        let camera = scenario.robot_model().map_err(|fault| source.blame(fault))?.robot_from_camera;
+        let end = path.length() / scenario.path.speed;
+        if let Some(&at) = self.instants.iter().find(|at| **at > end) {
+            return Err(Failure::BeyondPath { at, end });
+        }
+        let folder = NewFolder::begin(&self.out, &PICTURES)?;
+        let mut view = View::new(&scenario, &stage::lit_world(&scenario), camera)?;
+        let mut rows = Vec::new();
+        for &at in &self.instants {
+            let seen = view.at(at, &path.at(at * scenario.path.speed))?;
+            let row = seen.into_row();
+            write(&folder.path().join(format!("{at}s")), &row).map_err(|source| self.unwritable(source))?;
+            rows.push(row);
+        }
+        let sheet = contact_sheet::draw(&rows).save(folder.path().join(SHEET));
+        sheet.map_err(|error| self.unwritable(io::Error::other(error)))?;
+        folder.publish()?;
+        answer(&format!("{}", self.out.join(SHEET).display()));
+        Ok(())
+    }
+
+    fn unwritable(&self, source: io::Error) -> FolderError {
+        FolderError::Unwritable { folder: self.out.clone(), source }
+    }
+}
+
+/// A scenario's Kinect in its world.
+struct View<'a> {
+    scenario: &'a Scenario,
+    kinect: Kinect,
+    robot_from_infrared: Isometry3<f64>,
+}
+
+/// What it sees at one instant.
+struct Seen {
+    caption: String,
+    colour: sunblind_estimator::image::RgbImage,
+    infrared: Image<u16>,
+    /// Metres, 0 for none.
+    depth: Image<f32>,
+    true_depth: Image<f32>,
+}
+
+impl<'a> View<'a> {
+    fn new(scenario: &'a Scenario, world: &World, robot_from_camera: Isometry3<f64>) -> Result<Self, RenderError> {
+        let calibration = Calibration::nominal();
+        let robot_from_infrared = robot_from_camera * calibration.colour_from_infrared;
+        let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
+        Ok(Self { scenario, kinect, robot_from_infrared })
+    }
+
+    /// `at`: seconds after the start.
+    fn at(&mut self, at: f64, place: &PathPoint) -> Result<Seen, RenderError> {
+        // An image of another place, long ago, says nothing of the exposure here.
+        self.kinect.restart();
+        let frame = self.kinect.capture(&self.sweep(place), (at * self.scenario.kinect.rate).round() as u64)?;
+        let true_depth = self.kinect.true_depth()?;
+        let camera = self.kinect.calibration().rig(Isometry3::identity()).depth;
+        let measured = |&raw: &u16| camera.depth_of(raw).unwrap_or(0.0) as f32;
+        let (width, height) = frame.depth_raw.size();
+        let measured = frame.depth_raw.pixels().iter().map(measured).collect();
+        let measured = Image::from_pixels(width, height, measured).expect("one value a pixel");
+        let [x, y] = place.position.into();
+        Ok(Seen {
+            caption: format!("{at} s, at ({x:.1}, {y:.1}) m, {:.0} deg", place.heading.to_degrees()),
+            depth: if self.scenario.kinect.truth_depth { true_depth.clone() } else { measured },
+            true_depth,
+            colour: frame.rgb,
+            infrared: frame.infrared,
+        })
+    }
+
+    /// The motion of the infrared camera during a frame interval in whose middle the robot is at `place`, driving along
+    /// the path.
+    fn sweep(&self, place: &PathPoint) -> Sweep {
+        let world_from_robot = PlanarPose::new(place.position.x, place.position.y, place.heading).to_isometry();
+        let speed = self.scenario.path.speed;
+        let moved = |seconds: f64| -> DAffine3 {
+            let turned = speed * place.curvature * seconds;
+            // Along the chord: an arc's, of so small an angle.
+            let (sin, cos) = (0.5 * turned).sin_cos();
+            let chord = speed * seconds * Vector3::new(cos, sin, 0.0);
+            let motion = Isometry3::new(chord, Vector3::z() * turned);
+            affine(&(world_from_robot * motion * self.robot_from_infrared))
+        };
+        Sweep { start: moved(-0.5 * FRAME_INTERVAL), end: moved(0.5 * FRAME_INTERVAL) }
+    }
+}
+
+impl Seen {
+    fn into_row(self) -> Row {
+        let (width, height) = (self.colour.width() as u32, self.colour.height() as u32);
+        let colour = RgbImage::from_raw(width, height, self.colour.pixels().as_flattened().to_vec());
+        let shade = |x: u32, y: u32| {
+            let share = f32::from(self.infrared.at(x as usize, y as usize)) / 1023.0;
+            Luma([(255.0 * share.sqrt()).round() as u8])
+        };
+        let (width, height) = (self.infrared.width() as u32, self.infrared.height() as u32);
+        Row {
+            caption: self.caption,
+            colour: colour.expect("one value a pixel and channel"),
+            infrared: GrayImage::from_fn(width, height, shade),
+            depth: self.depth,
+            true_depth: self.true_depth,
+        }
+    }
+}
+
+/// Writes one instant's pictures into a new folder.
+fn write(folder: &Path, row: &Row) -> io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    let saved = [
+        row.colour.save(folder.join("rgb.png")),
+        row.infrared.save(folder.join("ir.png")),
+        millimetres(&row.depth).save(folder.join("depth.png")),
+        millimetres(&row.true_depth).save(folder.join("true_depth.png")),
+    ];
+    saved.into_iter().collect::<Result<(), _>>().map_err(io::Error::other)
+}
+
+/// 0 for what has no depth, and for what is beyond 65 m.
+fn millimetres(depth: &Image<f32>) -> ImageBuffer<Luma<u16>, Vec<u16>> {
+    ImageBuffer::from_fn(depth.width() as u32, depth.height() as u32, |x, y| {
+        let value = (1000.0 * depth.at(x as usize, y as usize)).round();
+        Luma([if value <= f32::from(u16::MAX) { value as u16 } else { 0 }])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depth_is_in_millimetres_and_nothing_is_0() {
+        let depth = Image::from_pixels(4, 1, vec![0.0, 1.2344, f32::INFINITY, 65.535]).unwrap();
+        assert_eq!(millimetres(&depth).into_raw(), [0, 1234, 0, 65535]);
+    }
+
+    #[test]
+    fn an_instant_is_a_number_of_seconds_from_the_start() {
+        assert_eq!(seconds("12.5"), Ok(12.5));
+        for wrong in ["-1", "nan", "inf", "soon"] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn only_pictures_are_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let sheet = folder.path().join(SHEET);
+        std::fs::write(&sheet, "").unwrap();
+        assert!(is_pictures(folder.path()));
+        std::fs::write(folder.path().join("thesis.tex"), "").unwrap();
+        assert!(!is_pictures(folder.path()));
+    }
+}
