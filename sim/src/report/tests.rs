@@ -61,6 +61,7 @@ fn snapshot(index: u32) -> Snapshot {
     Snapshot {
         time: time(index),
         rgb: RgbImage::from_pixels(640, 480, pixels).unwrap(),
+        infrared: None,
         depth: Image::from_pixels(640, 480, depth).unwrap(),
         tracks: (0..200).map(track).collect(),
     }
@@ -83,6 +84,12 @@ fn made_up_log(frames: u32) -> RunLog {
             track("mvo_paper", "visual odometry, as in the paper", 0.009),
         ],
         snapshots: (0..6).map(|index| snapshot(index * frames / 6)).collect(),
+        has_wheels: false,
+        thumbnails: Vec::new(),
+        plan: None,
+        planned_path: Vec::new(),
+        expectations: Vec::new(),
+        facts: None,
         digest: "0123456789abcdef".repeat(4),
         wall: 11.5,
         cpu: 12.25,

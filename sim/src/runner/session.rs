@@ -147,7 +147,13 @@ impl<'a> Session<'a> {
             digest,
             tracks: self.followers.into_iter().flat_map(|follower| follower.finish(&truth)).collect(),
             truth,
+            has_wheels: self.rig.drive.is_some(),
             snapshots: self.snapshots,
+            thumbnails: Vec::new(),
+            plan: None,
+            planned_path: Vec::new(),
+            expectations: Vec::new(),
+            facts: None,
             wall: started.elapsed().as_secs_f64(),
             cpu: cpu.elapsed().as_secs_f64(),
         }
@@ -199,6 +205,7 @@ fn snapshot(frame: &Frame, follower: &Follower, rig: &Rig) -> Snapshot {
     Snapshot {
         time: frame.rgb_time,
         rgb: RgbImage::clone(&frame.rgb),
+        infrared: None,
         depth: Image::from_pixels(width, height, metres.collect()).expect("one value a pixel"),
         tracks: follower.feature_tracks(),
     }
