@@ -18,6 +18,7 @@
 mod digest;
 mod driven;
 mod follower;
+mod gallery;
 pub mod log;
 mod pairing;
 mod replay;
