@@ -17,7 +17,7 @@ use crate::runner::log::{FrameLog, Snapshot};
 
 /// Poses that the animation knows; between them the robot moves evenly.
 const POSES: usize = 400;
-const QUALITY: u8 = 60;
+const QUALITY: u8 = 50;
 /// How much faster than the run it plays.
 const SPEED: f64 = 5.0;
 /// But it lasts this long, seconds.

@@ -9,14 +9,14 @@ use image::{GrayImage, ImageEncoder, Luma, PixelWithColorType, Rgb, RgbImage};
 use sunblind_estimator::image::{Image, InfraredImage};
 
 use super::timing::quantile;
-use crate::runner::log::Snapshot;
+use crate::runner::log::{RunLog, Snapshot};
 
 /// What a depth pixel without a value is drawn in: a grey, which the colours of depth never are.
 pub(super) const NO_VALUE: [u8; 3] = [128, 132, 138];
 /// Near is bright: viridis, legible to the colour-blind and in greyscale, backwards.
 const DEPTH_COLOURS: colorous::Gradient = colorous::VIRIDIS;
-/// Of the largest values this share is let go white, so that a few bright dots don't leave the rest in the dark.
-const WHITE_SHARE: f64 = 0.99;
+/// Infrared values beyond those of this share are white, so that a sunlit window doesn't leave the rest in the dark.
+const WHITE_SHARE: f64 = 0.95;
 /// Infrared values are proportional to light, and a screen shows a value's power: about that of sRGB.
 const GAMMA: f32 = 2.2;
 
@@ -32,8 +32,10 @@ pub(super) struct Tones {
 
 impl Tones {
     /// Depths from the range that holds all but the outermost 2 % at either end.
-    pub(super) fn of(snapshots: &[Snapshot]) -> Self {
-        let depths = snapshots.iter().flat_map(|snapshot| snapshot.depth.pixels());
+    pub(super) fn of(log: &RunLog) -> Self {
+        // As small as they are drawn: in infrared, the mean over dots and what is between them.
+        let images: &[Snapshot] = if log.thumbnails.is_empty() { &log.snapshots } else { &log.thumbnails };
+        let depths = images.iter().flat_map(|image| image.depth.pixels());
         let mut depths: Vec<f64> = depths.filter(|z| has_value(**z)).map(|&z| f64::from(z)).collect();
         depths.sort_by(f64::total_cmp);
         let (nearest, farthest) = if depths.is_empty() {
@@ -42,7 +44,7 @@ impl Tones {
             let (near, far) = (quantile(&depths, 0.02), quantile(&depths, 0.98));
             ((10.0 * near).floor() / 10.0, (10.0 * far).ceil() / 10.0)
         };
-        let infrared = snapshots.iter().filter_map(|snapshot| snapshot.infrared.as_ref());
+        let infrared = images.iter().filter_map(|image| image.infrared.as_ref());
         let mut values: Vec<f64> = infrared.flat_map(|image| image.pixels()).map(|&value| value.into()).collect();
         values.sort_by(f64::total_cmp);
         let white = if values.is_empty() { 0.0 } else { quantile(&values, WHITE_SHARE) };

@@ -91,7 +91,7 @@ pub(super) fn to_html(judged: &Judged) -> io::Result<String> {
     // The name's ending is what turns escaping on.
     templates.add_template("page.html", include_str!("page.html")).map_err(io::Error::other)?;
     let log = judged.log;
-    let tones = Tones::of(&log.snapshots);
+    let tones = Tones::of(log);
     let page = Page {
         style: include_str!("page.css"),
         script: SCRIPT,

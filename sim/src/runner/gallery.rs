@@ -9,8 +9,8 @@ use super::pairing::Shot;
 
 /// Instants whose images are kept as they are.
 const SNAPSHOTS: usize = 6;
-/// Instants whose images are kept small: more than one a second of a short run, and never more than 20 MB.
-const THUMBNAILS: usize = 72;
+/// Instants whose images are kept small, 16 MB in all: about one a second of the usual run.
+const THUMBNAILS: usize = 64;
 /// Columns of a small image: a multiple of JPEG's blocks, as its rows are, so that images on one sheet don't mix.
 const THUMBNAIL_WIDTH: usize = 192;
 
@@ -64,8 +64,8 @@ fn thumbnail(Snapshot { time, rgb, infrared, depth, .. }: &Snapshot) -> Snapshot
         time: *time,
         rgb: shrunk(rgb, mean_colour),
         infrared: infrared.as_ref().map(|image| shrunk(image, |block| mean(block.iter().copied()) as u16)),
-        // A mean over an edge or a hole would be a depth that nobody measured.
-        depth: shrunk(depth, |block| block[block.len() / 2]),
+        // The median: a mean over an edge or a hole would be a depth that nobody measured.
+        depth: shrunk(depth, |block| median(block.to_vec())),
         tracks: Vec::new(),
     }
 }
@@ -73,6 +73,12 @@ fn thumbnail(Snapshot { time, rgb, infrared, depth, .. }: &Snapshot) -> Snapshot
 fn mean<P: Into<u32>>(values: impl ExactSizeIterator<Item = P>) -> u32 {
     let count = values.len() as u32;
     values.map(Into::into).sum::<u32>() / count
+}
+
+/// Panics on nothing.
+fn median(mut values: Vec<f32>) -> f32 {
+    values.sort_by(f32::total_cmp);
+    values[values.len() / 2]
 }
 
 /// An image [`THUMBNAIL_WIDTH`] wide, each pixel what `summary` makes of the block in its place. A smaller image, or one

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::{Mesh, Object, World};
 
 /// Heights between which things are cut and seen from above, metres: above skirting boards and thresholds, below
-/// doors' lintels, and including worktops.
-const BAND: [f32; 2] = [0.1, 1.0];
+/// windows' sills, and including desks.
+const BAND: [f32; 2] = [0.1, 0.85];
 /// What is narrower is a line, millimetres.
 const LINE: f64 = 20.0;
 /// A line of something that rises higher is a wall, metres: no furniture's side does.
@@ -46,8 +46,7 @@ impl Plan {
             }
         }
         furniture.sort_by(|(one, _), (other, _)| other.total_cmp(one));
-        plan.furniture =
-            furniture.into_iter().map(|(_, outline)| outline.into_iter().map(metres).collect()).collect();
+        plan.furniture = furniture.into_iter().map(|(_, outline)| outline.into_iter().map(metres).collect()).collect();
         plan
     }
 }
@@ -213,8 +212,7 @@ mod tests {
     fn a_wall_is_open_where_its_door_is() {
         let (columns, rows) = (vec![0.0, 2.0, 3.0, 5.0], vec![0.0, 0.6, 2.7]);
         let is_door = |column: usize, row: usize| column == 1 && row == 1;
-        let face =
-            Mesh::grid(vec3(0.0, 4.0, 2.7), Vec3::X, -Vec3::Z, [&columns, &rows], is_door, Mapping::Fitted);
+        let face = Mesh::grid(vec3(0.0, 4.0, 2.7), Vec3::X, -Vec3::Z, [&columns, &rows], is_door, Mapping::Fitted);
         let plan = Plan::of(&world(face));
         assert_eq!(plan.walls, [[[0.0, 4.0], [2.0, 4.0]], [[3.0, 4.0], [5.0, 4.0]]]);
         assert!(plan.furniture.is_empty());

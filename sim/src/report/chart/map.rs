@@ -6,7 +6,7 @@ use super::Chart;
 use crate::world::plan::Plan;
 
 /// How wide a wall's face is drawn, metres: two faces of a partition become one wall.
-const WALL_WIDTH: f64 = 0.14;
+const WALL_WIDTH: f64 = 0.16;
 /// Least length of the robot, in user units: in a large world it is drawn larger than it is.
 const LEAST_ROBOT: f64 = 15.0;
 /// Length of a Pioneer P3-AT, metres; its parts below are drawn in this unit.

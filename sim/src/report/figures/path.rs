@@ -78,10 +78,7 @@ fn figure(judged: &Judged, view: &View) -> Figure {
 }
 
 /// A map that shows `points`, with the floor plan and the planned path.
-pub(in crate::report) fn floor(
-    judged: &Judged,
-    points: impl Iterator<Item = (f64, f64)> + Clone,
-) -> (Chart, Vec<Key>) {
+pub(in crate::report) fn floor(judged: &Judged, points: impl Iterator<Item = (f64, f64)> + Clone) -> (Chart, Vec<Key>) {
     let planned: Vec<_> = judged.log.planned_path.iter().map(|&[x, y]| (x, y)).collect();
     let mut ranges = extents(points.chain(planned.iter().copied()));
     if let Some(plan) = &judged.log.plan {
