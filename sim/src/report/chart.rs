@@ -1,6 +1,8 @@
 //! Charts as inline SVG. Colours and text sizes come from the page's style sheet, so that one chart serves light and
 //! dark, phone and desk; nothing in it but numbers and the labels given here, which must not come from outside.
 
+mod map;
+
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -38,7 +40,7 @@ impl Chart {
     }
 
     /// A map: one unit is as long upwards as to the right. The ranges are widened to fill the area.
-    pub(super) fn with_equal_axes(x: Range<f64>, y: Range<f64>) -> Self {
+    pub(super) fn with_equal_axes([x, y]: [Range<f64>; 2]) -> Self {
         let (width, height) = (x.end - x.start, y.end - y.start);
         let area_height = (AREA_WIDTH * height / width).clamp(EQUAL_HEIGHT.start, EQUAL_HEIGHT.end);
         let per_unit = (AREA_WIDTH / width).min(area_height / height);
@@ -206,7 +208,7 @@ mod tests {
     #[test]
     fn equal_axes_are_equal() {
         for (width, height) in [(10.0, 1.0), (1.0, 10.0), (3.0, 2.0)] {
-            let Chart { x, y, .. } = Chart::with_equal_axes(0.0..width, -height..0.0);
+            let Chart { x, y, .. } = Chart::with_equal_axes([0.0..width, -height..0.0]);
             let (across, up) = (x.at(1.0) - x.at(0.0), y.at(0.0) - y.at(1.0));
             assert!((across - up).abs() < 1e-9);
             assert!(x.at(0.0) >= -1e-9 && x.at(width) <= AREA_WIDTH + 1e-9 && y.at(0.0) >= -1e-9);

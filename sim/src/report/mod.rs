@@ -1,10 +1,14 @@
 //! What a run leaves behind on disk: numbers for programs, trajectories for other tools, one page for people.
 
+mod animation;
 mod chart;
+mod expectations;
 mod figures;
 mod format;
 mod headline;
+mod imagery;
 mod judged;
+mod metrics;
 mod page;
 mod pictures;
 mod scale;

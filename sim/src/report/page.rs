@@ -2,26 +2,40 @@
 
 use std::io;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 
+use super::animation::{Animation, animation};
+use super::expectations::{Expectations, expectations};
 use super::figures::{self, Figure, track_class};
 use super::format::{angle, duration, length, milliseconds, percent};
 use super::headline::headline;
+use super::imagery::Tones;
 use super::judged::{Judged, tracked_frames};
+use super::metrics::{Metric, metrics};
 use super::pictures::{Pictures, pictures};
 use super::timing::{STAGES, StageTime, Timing};
-use crate::evaluation::Evaluation;
+use crate::runner::log::SimulationCost;
+
+/// The only code that the page may run.
+const SCRIPT: &str = include_str!("page.js");
 
 #[derive(Serialize)]
 struct Page<'a> {
     style: &'static str,
+    script: &'static str,
+    script_hash: String,
     recording: &'a str,
     headline: String,
     warnings: &'a [String],
+    expectations: Option<Expectations<'a>>,
     facts: Vec<Fact>,
+    animation: Option<Animation>,
     tracks: Vec<TrackName<'a>>,
     path: Vec<Figure>,
     metrics: Vec<Metric>,
@@ -48,21 +62,6 @@ struct TrackName<'a> {
 struct Fact {
     value: String,
     name: &'static str,
-}
-
-/// A row of the table of tracks.
-#[derive(Serialize)]
-struct Metric {
-    name: &'static str,
-    meaning: &'static str,
-    /// One a track.
-    values: Vec<Value>,
-}
-
-#[derive(Serialize)]
-struct Value {
-    text: String,
-    best: bool,
 }
 
 /// Where a track's time went.
@@ -92,12 +91,17 @@ pub(super) fn to_html(judged: &Judged) -> io::Result<String> {
     // The name's ending is what turns escaping on.
     templates.add_template("page.html", include_str!("page.html")).map_err(io::Error::other)?;
     let log = judged.log;
+    let tones = Tones::of(log);
     let page = Page {
         style: include_str!("page.css"),
+        script: SCRIPT,
+        script_hash: STANDARD.encode(Sha256::digest(SCRIPT)),
         recording: &log.recording,
         headline: headline(judged),
         warnings: &log.warnings,
+        expectations: expectations(&log.expectations),
         facts: facts(judged),
+        animation: animation(judged, &tones)?,
         tracks: (log.tracks.iter().enumerate())
             .map(|(index, track)| TrackName { class: track_class(index), name: &track.name, label: &track.label })
             .collect(),
@@ -105,7 +109,7 @@ pub(super) fn to_html(judged: &Judged) -> io::Result<String> {
         metrics: metrics(judged),
         error: figures::errors(judged),
         seen: figures::counts(judged),
-        pictures: pictures(judged)?,
+        pictures: pictures(judged, &tones)?,
         timings: timings(judged),
         frame_budget: judged.frame_interval().map(|interval| milliseconds(1e3 * interval)),
         parameters: parameters(judged),
@@ -130,72 +134,6 @@ fn facts(judged: &Judged) -> Vec<Fact> {
         facts.push(Fact { value: milliseconds(timing.total.median_ms), name: "a frame (median)" });
     }
     facts
-}
-
-/// The table's rows: (name, meaning, value, how to write it).
-type Row = (&'static str, &'static str, fn(&Evaluation) -> f64, fn(f64) -> String);
-
-const ROWS: [Row; 10] = [
-    (
-        "Path error (ATE)",
-        "RMSE of the position once the whole path is laid on the true one as well as a rigid motion can.",
-        |e| e.ate_m,
-        length,
-    ),
-    (
-        "Drift in a second (RPE)",
-        "RMSE of the motion's translation error, over all pairs of frames 1 s apart.",
-        |e| e.rpe_m,
-        length,
-    ),
-    ("Turn drift in a second", "The same of the rotation angle.", |e| e.rpe_deg, angle),
-    (
-        "Drift from frame to frame",
-        "RMSE of the translation error between neighbouring frames.",
-        |e| e.rpe_frame_m,
-        length,
-    ),
-    ("Turn drift from frame to frame", "The same of the rotation angle.", |e| e.rpe_frame_deg, angle),
-    (
-        "Drift over the way",
-        "Mean translation error / length over sub-paths of 5 to 100 m, or over a shorter path as a whole.",
-        |e| e.drift_percent,
-        percent,
-    ),
-    ("Off at the end", "Distance from the truth at the last frame, from a common start.", |e| e.end_error_m, length),
-    ("RMSE x", "Along the world's x, from a common start, not aligned.", |e| e.rmse_x_m, length),
-    ("RMSE y", "Along the world's y, likewise.", |e| e.rmse_y_m, length),
-    ("RMSE θ", "Angle of the whole rotation error, likewise.", |e| e.rmse_theta_deg, angle),
-];
-
-fn metrics(judged: &Judged) -> Vec<Metric> {
-    let tracks = || judged.log.tracks.iter();
-    let plain = |name, meaning, texts: Vec<String>| Metric {
-        name,
-        meaning,
-        values: texts.into_iter().map(|text| Value { text, best: false }).collect(),
-    };
-    let mut metrics = vec![plain(
-        "Frames tracked",
-        "A lost frame keeps the last good pose and counts like the others.",
-        tracks().map(|track| format!("{} / {}", tracked_frames(track), track.frames.len())).collect(),
-    )];
-    if judged.evaluations.iter().any(Option::is_some) {
-        metrics.extend(ROWS.iter().map(|row| evaluated(&judged.evaluations, row)));
-    }
-    if judged.log.tracks.iter().any(|track| Timing::of(track).is_some()) {
-        let total = |track| Timing::of(track).map_or("–".into(), |timing| milliseconds(timing.total.median_ms));
-        metrics.push(plain("Time a frame", "Median over the frames, all stages.", tracks().map(total).collect()));
-    }
-    metrics
-}
-
-fn evaluated(evaluations: &[Option<Evaluation>], &(name, meaning, value, write): &Row) -> Metric {
-    let values: Vec<f64> = evaluations.iter().map(|e| e.as_ref().map_or(f64::NAN, value)).collect();
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let several = values.len() > 1;
-    let values = values.iter().map(|&value| Value { text: write(value), best: several && value == least }).collect();
-    Metric { name, meaning, values }
 }
 
 fn timings<'a>(judged: &Judged<'a>) -> Vec<TrackTiming<'a>> {
@@ -232,14 +170,23 @@ fn parameters<'a>(judged: &Judged<'a>) -> Vec<(Vec<&'a str>, &'a str)> {
 
 fn provenance(judged: &Judged) -> Vec<(&'static str, String)> {
     let log = judged.log;
-    let mut rows = vec![
-        ("Recorded time", duration(judged.duration())),
-        ("Wall time", duration(log.wall)),
-        ("CPU time", duration(log.cpu)),
-    ];
-    let factor = judged.duration() / log.wall;
+    let time = if log.facts.is_some() { "Simulated time" } else { "Recorded time" };
+    let mut rows = vec![(time, duration(judged.duration_of_run()))];
+    if let Some(facts) = &log.facts {
+        rows.push(("Way driven", length(facts.path)));
+        rows.push(("Seed", facts.seed.to_string()));
+    }
+    rows.extend([("Wall time", duration(log.wall)), ("CPU time", duration(log.cpu))]);
+    let factor = judged.real_time_factor();
     if factor.is_finite() {
         rows.push(("Real-time factor", format!("{factor:.2} × (above 1: faster than it happened)")));
+    }
+    if let Some(facts) = &log.facts {
+        let SimulationCost { render, depth, physics } = facts.cpu_ms_per_frame;
+        let [render, depth, physics] = [render, depth, physics].map(milliseconds);
+        rows.push(("CPU a frame", format!("images {render}, depth {depth}, physics {physics}")));
+        rows.extend(facts.adapter.clone().map(|adapter| ("Graphics adapter", adapter)));
+        rows.extend(facts.driver.clone().map(|driver| ("Driver", driver)));
     }
     rows.push(("Sunblind", env!("CARGO_PKG_VERSION").into()));
     rows.push(("Digest", log.digest.clone()));

@@ -9,6 +9,7 @@ use super::judged::{Judged, lost_frames, tracked_frames};
 use super::timing::{STAGES, StageTime, Timing};
 use crate::evaluation::Evaluation;
 use crate::runner::log::Track;
+use crate::scenario::expect::Judged as Expected;
 
 /// The layout's version, raised when a field changes its meaning or goes.
 const SCHEMA: u32 = 1;
@@ -16,9 +17,13 @@ const SCHEMA: u32 = 1;
 #[derive(Serialize)]
 struct Summary<'a> {
     schema: u32,
-    /// The recording's name.
+    /// The scenario's or the recording's name.
     scenario: &'a str,
+    /// `null` for a recording, as is all that only a simulation has.
+    seed: Option<u64>,
     digest: &'a str,
+    adapter: Option<&'a str>,
+    driver: Option<&'a str>,
     duration_s: f64,
     /// Of the true path; of the judged estimator's own where there is no truth.
     path_m: f64,
@@ -27,20 +32,31 @@ struct Summary<'a> {
     lost_frames: usize,
     wall_s: f64,
     cpu_s: f64,
-    /// Recorded time / wall time: above 1 is faster than it happened.
+    /// Recorded or simulated time / wall time: above 1 is faster than it happened.
     real_time_factor: f64,
     cpu_ms_per_frame: CpuPerFrame,
     /// The one that is judged.
     judged: &'a str,
     estimators: BTreeMap<&'a str, EstimatorSummary>,
+    sensor: SensorSummary,
     warnings: &'a [String],
-    expectations: [(); 0],
+    expectations: &'a [Expected],
+}
+
+/// Means over the frames, milliseconds; `null` where nobody held a clock to it.
+#[derive(Serialize)]
+struct CpuPerFrame {
+    render: Option<f64>,
+    depth: Option<f64>,
+    physics: Option<f64>,
+    /// All stages of the estimator that made the judged track.
+    estimator: Option<f64>,
 }
 
 #[derive(Serialize)]
-struct CpuPerFrame {
-    /// Mean over the frames of the stages' sum, of the estimator that made the judged track; `null` when nobody held a clock to it.
-    estimator: Option<f64>,
+struct SensorSummary {
+    /// Mean share of the depth images' pixels that have a value; `null` when nobody counted.
+    depth_valid_share: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -58,25 +74,36 @@ struct EstimatorSummary {
 /// Indented, with a line feed at the end.
 pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
     let log = judged.log;
+    let facts = log.facts.as_ref();
+    let cost = facts.map(|facts| facts.cpu_ms_per_frame);
     let estimators = log.tracks.iter().zip(&judged.evaluations);
     let summary = Summary {
         schema: SCHEMA,
         scenario: &log.recording,
+        seed: facts.map(|facts| facts.seed),
         digest: &log.digest,
-        duration_s: judged.duration(),
+        adapter: facts.and_then(|facts| facts.adapter.as_deref()),
+        driver: facts.and_then(|facts| facts.driver.as_deref()),
+        duration_s: judged.duration_of_run(),
         path_m: judged.path(),
         frames: judged.track.frames.len(),
         lost_frames: lost_frames(judged.track),
         wall_s: log.wall,
         cpu_s: log.cpu,
-        real_time_factor: judged.duration() / log.wall,
-        cpu_ms_per_frame: CpuPerFrame { estimator: judged.timing().map(|timing| timing.mean_ms) },
+        real_time_factor: judged.real_time_factor(),
+        cpu_ms_per_frame: CpuPerFrame {
+            render: cost.map(|cost| cost.render),
+            depth: cost.map(|cost| cost.depth),
+            physics: cost.map(|cost| cost.physics),
+            estimator: judged.timing().map(|timing| timing.mean_ms),
+        },
         judged: &judged.track.name,
         estimators: estimators
             .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation)))
             .collect(),
+        sensor: SensorSummary { depth_valid_share: judged.depth_valid_share() },
         warnings: &log.warnings,
-        expectations: [],
+        expectations: &log.expectations,
     };
     Ok(serde_json::to_string_pretty(&summary)? + "\n")
 }

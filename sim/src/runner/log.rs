@@ -1,15 +1,17 @@
 //! What a run leaves behind in memory: the input of `evaluation` and `report`.
 
 use nalgebra::{Isometry3, Matrix6};
-use sunblind_estimator::image::{Image, RgbImage};
+use sunblind_estimator::image::{Image, InfraredImage, RgbImage};
 use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{Health, Mode, Timestamp};
 
 use crate::evaluation::StampedPose;
+use crate::scenario::expect::Judged;
+use crate::world::plan::Plan;
 
 /// One run of one or more localisers through one recording or simulation.
 pub struct RunLog {
-    /// The recording's name: its folder's.
+    /// The recording's name, which is its folder's, or the scenario's.
     pub recording: String,
     /// What a reader should know first, one sentence each ("no calibration.toml: the Kinect's defaults are assumed").
     pub warnings: Vec<String>,
@@ -17,14 +19,55 @@ pub struct RunLog {
     pub truth: Vec<StampedPose>,
     /// What the localisers said; the first is the one that is judged.
     pub tracks: Vec<Track>,
+    /// Whether the poses are of a robot with wheels (x forward, y left, z up); if not, they are of whatever carried the
+    /// camera.
+    pub has_wheels: bool,
     /// Images of a few instants.
     pub snapshots: Vec<Snapshot>,
+    /// Small images of many instants, evenly spread over the run, without feature tracks.
+    pub thumbnails: Vec<Snapshot>,
+    /// The world from above; `None` for a recording.
+    pub plan: Option<Plan>,
+    /// The way that the robot was to take: x, y in the world, metres; empty for a recording.
+    pub planned_path: Vec<[f64; 2]>,
+    /// What had to hold, and whether it did; empty for a recording.
+    pub expectations: Vec<Judged>,
+    /// What is known of a simulated run alone; `None` for a recording.
+    pub facts: Option<RunFacts>,
     /// SHA-256 over everything that was measured and every estimate, hex.
     pub digest: String,
     /// Wall time of the run, seconds.
     pub wall: f64,
     /// CPU time of the process during the run, seconds.
     pub cpu: f64,
+}
+
+/// What a run of a scenario knows beyond what a replay does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunFacts {
+    /// The seed of all its random numbers.
+    pub seed: u64,
+    /// Simulated time, seconds.
+    pub duration: f64,
+    /// Length of the way that the robot truly went, metres.
+    pub path: f64,
+    /// The graphics adapter's name; `None` when nothing was rendered.
+    pub adapter: Option<String>,
+    /// Its driver with its version.
+    pub driver: Option<String>,
+    /// What simulating a camera frame cost, milliseconds of CPU over all threads.
+    pub cpu_ms_per_frame: SimulationCost,
+}
+
+/// Milliseconds of CPU for each camera frame, the mean over the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SimulationCost {
+    /// Colour and infrared images.
+    pub render: f64,
+    /// Depth from the infrared image.
+    pub depth: f64,
+    /// Rigid bodies and wheels, from one frame to the next.
+    pub physics: f64,
 }
 
 /// One of a localiser's estimates, frame by frame.
@@ -73,11 +116,14 @@ pub struct FrameCounts {
 }
 
 /// Images and tracked features of one instant.
+#[derive(Clone, Debug)]
 pub struct Snapshot {
     /// When.
     pub time: Timestamp,
     /// Colour image.
     pub rgb: RgbImage,
+    /// Infrared image of the same instant, where there is one.
+    pub infrared: Option<InfraredImage>,
     /// Z of the depth camera's pixels, metres; 0 = no value.
     pub depth: Image<f32>,
     /// Feature tracks of the judged localiser.

@@ -20,6 +20,7 @@ mod closed_loop;
 mod digest;
 mod driven;
 mod follower;
+mod gallery;
 pub mod log;
 mod pairing;
 mod replay;

@@ -6,20 +6,17 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
-use sunblind_estimator::image::{Image, RgbImage};
 use sunblind_estimator::{Estimate, Measurement, Rig, Streams, Timestamp};
 
 use super::digest;
 use super::driven::Driven;
 use super::follower::Follower;
-use super::log::{RunLog, Snapshot};
-use super::pairing::Pairing;
+use super::gallery::Gallery;
+use super::log::RunLog;
+use super::pairing::{Pairing, Shot};
 use crate::evaluation::StampedPose;
-use crate::record::{Arrival, Frame};
+use crate::record::Arrival;
 use crate::truth;
-
-/// Instants whose images are kept for the report.
-const SNAPSHOTS: usize = 6;
 
 /// Drives localisers; the first is the one that is judged.
 pub struct Session<'a> {
@@ -27,20 +24,18 @@ pub struct Session<'a> {
     followers: Vec<Follower>,
     pairing: Pairing,
     newest: Option<Arrival>,
-    frames: usize,
-    expected_frames: usize,
     /// Over the frames, and over all that is in none.
     frame_hash: Sha256,
     other_hash: Option<Sha256>,
-    snapshots: Vec<Snapshot>,
+    gallery: Gallery,
     on_frame: &'a (dyn Fn() + Sync),
     started: (Instant, ProcessTime),
 }
 
-/// A measurement, and the frame that it completes.
+/// A measurement, and the images of the frame that it completes.
 struct Step<'a> {
     measurement: &'a Measurement,
-    frame: Option<Frame>,
+    shot: Option<Shot>,
 }
 
 impl<'a> Session<'a> {
@@ -52,11 +47,9 @@ impl<'a> Session<'a> {
             followers: localizers.into_iter().map(Follower::new).collect(),
             pairing: Pairing::default(),
             newest: None,
-            frames: 0,
-            expected_frames,
             frame_hash: Sha256::new(),
             other_hash: None,
-            snapshots: Vec::new(),
+            gallery: Gallery::new(expected_frames),
             on_frame,
             started: (Instant::now(), ProcessTime::now()),
         }
@@ -74,17 +67,11 @@ impl<'a> Session<'a> {
             self.newest = arrival;
         }
         let steps = self.steps(measurements);
-        let (first_index, expected_frames) = (self.frames, self.expected_frames);
-        self.frames += steps.iter().filter(|step| step.frame.is_some()).count();
         let Some((judged, others)) = self.followers.split_first_mut() else { return };
-        let (rig, snapshots, on_frame) = (&self.rig, &mut self.snapshots, self.on_frame);
+        let (rig, gallery, on_frame) = (&self.rig, &mut self.gallery, self.on_frame);
         let follow_judged = || {
-            let mut index = first_index;
-            follow(judged, &steps, |judged, frame| {
-                if is_snapshot(index, expected_frames) {
-                    snapshots.push(snapshot(frame, judged, rig));
-                }
-                index += 1;
+            follow(judged, &steps, |judged, shot| {
+                gallery.take(shot, rig, || judged.feature_tracks());
                 on_frame();
             });
         };
@@ -102,10 +89,10 @@ impl<'a> Session<'a> {
             if !digest::may_be_in_a_frame(measurement) {
                 others.push(measurement.clone());
             }
-            steps.push(Step { measurement, frame: paired.frame });
+            steps.push(Step { measurement, shot: paired.shot });
         }
         let frame_digests: Vec<_> =
-            steps.par_iter().filter_map(|step| Some(digest::of_frame(step.frame.as_ref()?))).collect();
+            steps.par_iter().filter_map(|step| Some(digest::of_frame(&step.shot.as_ref()?.frame))).collect();
         frame_digests.iter().for_each(|digest| self.frame_hash.update(digest));
         self.hash_others(&others);
         steps
@@ -147,7 +134,13 @@ impl<'a> Session<'a> {
             digest,
             tracks: self.followers.into_iter().flat_map(|follower| follower.finish(&truth)).collect(),
             truth,
-            snapshots: self.snapshots,
+            has_wheels: self.rig.drive.is_some(),
+            snapshots: self.gallery.snapshots,
+            thumbnails: self.gallery.thumbnails,
+            plan: None,
+            planned_path: Vec::new(),
+            expectations: Vec::new(),
+            facts: None,
             wall: started.elapsed().as_secs_f64(),
             cpu: cpu.elapsed().as_secs_f64(),
         }
@@ -178,41 +171,12 @@ impl<'a> Session<'a> {
     }
 }
 
-fn follow(follower: &mut Follower, steps: &[Step], mut after_frame: impl FnMut(&Follower, &Frame)) {
-    for Step { measurement, frame } in steps {
+fn follow(follower: &mut Follower, steps: &[Step], mut after_frame: impl FnMut(&Follower, &Shot)) {
+    for Step { measurement, shot } in steps {
         follower.take(measurement);
-        if let Some(frame) = frame {
-            follower.log(frame.rgb_time);
-            after_frame(follower, frame);
+        if let Some(shot) = shot {
+            follower.log(shot.frame.rgb_time);
+            after_frame(follower, shot);
         }
-    }
-}
-
-/// Whether frame `index` of `count` is kept for the report: the middles of [`SNAPSHOTS`] equal parts.
-fn is_snapshot(index: usize, count: usize) -> bool {
-    (0..SNAPSHOTS).any(|part| (2 * part + 1) * count / (2 * SNAPSHOTS) == index)
-}
-
-fn snapshot(frame: &Frame, follower: &Follower, rig: &Rig) -> Snapshot {
-    let metres = frame.depth.pixels().iter().map(|&value| rig.depth.depth_of(value).unwrap_or(0.0) as f32);
-    let (width, height) = frame.depth.size();
-    Snapshot {
-        time: frame.rgb_time,
-        rgb: RgbImage::clone(&frame.rgb),
-        depth: Image::from_pixels(width, height, metres.collect()).expect("one value a pixel"),
-        tracks: follower.feature_tracks(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn snapshots_are_spread_evenly() {
-        let kept = |count| (0..count).filter(|&index| is_snapshot(index, count)).collect::<Vec<_>>();
-        assert_eq!(kept(300), [25, 75, 125, 175, 225, 275]);
-        assert_eq!(kept(3), [0, 1, 2]);
-        assert_eq!(kept(1), [0]);
     }
 }

@@ -6,6 +6,7 @@
 pub mod bake;
 pub mod laboratory;
 pub mod material;
+pub mod plan;
 pub mod rays;
 pub mod refine;
 mod scene;

@@ -9,7 +9,7 @@ use sunblind_estimator::Timestamp;
 
 pub(super) use self::counts::figures as counts;
 pub(super) use self::errors::figures as errors;
-pub(super) use self::path::figures as path;
+pub(super) use self::path::{figures as path, floor};
 use super::judged::{Judged, is_lost};
 use crate::runner::log::Track;
 
@@ -33,7 +33,7 @@ pub(super) struct Key {
 }
 
 impl Key {
-    fn new(class: impl Into<String>, label: impl Into<String>) -> Self {
+    pub(super) fn new(class: impl Into<String>, label: impl Into<String>) -> Self {
         Self { class: class.into(), label: label.into() }
     }
 }
@@ -49,7 +49,7 @@ fn time_range(judged: &Judged) -> std::ops::Range<f64> {
 }
 
 /// Seconds from the first frame.
-fn seconds(judged: &Judged, time: Timestamp) -> f64 {
+pub(super) fn seconds(judged: &Judged, time: Timestamp) -> f64 {
     judged.start().map_or(0.0, |start| time.since(start))
 }
 

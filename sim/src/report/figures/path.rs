@@ -1,4 +1,6 @@
-//! The path seen along two axes.
+//! The path seen along two axes; from above on the floor plan, where there is one.
+
+use std::ops::Range;
 
 use nalgebra::Isometry3;
 
@@ -8,6 +10,8 @@ use crate::report::judged::Judged;
 
 /// Least extent of a map, metres: of a path that hardly leaves its start one wants to see that.
 const LEAST_EXTENT: f64 = 0.05;
+/// How far beyond the paths a floor plan is shown, metres.
+const AROUND: f64 = 4.0;
 
 /// A plane of the world, by the indices of its axes.
 struct View {
@@ -38,9 +42,9 @@ fn figure(judged: &Judged, view: &View) -> Figure {
         .map(|track| track.frames.iter().map(|frame| seen(&frame.world_from_body)).collect())
         .collect();
 
-    let all = || tracks.iter().flatten().chain(&truth);
-    let mut chart = Chart::with_equal_axes(extent(all().map(|point| point.0)), extent(all().map(|point| point.1)));
-    let mut legend = Vec::new();
+    let all = || tracks.iter().flatten().chain(&truth).copied();
+    let (mut chart, mut legend) =
+        if view.up == 1 { floor(judged, all()) } else { (Chart::with_equal_axes(extents(all())), Vec::new()) };
     if !truth.is_empty() {
         chart.line("truth", &truth);
         legend.push(Key::new("line truth", "truth"));
@@ -73,8 +77,39 @@ fn figure(judged: &Judged, view: &View) -> Figure {
     Figure { title, legend, svg, note: note.into() }
 }
 
+/// A map that shows `points`, with the floor plan and the planned path.
+pub(in crate::report) fn floor(judged: &Judged, points: impl Iterator<Item = (f64, f64)> + Clone) -> (Chart, Vec<Key>) {
+    let planned: Vec<_> = judged.log.planned_path.iter().map(|&[x, y]| (x, y)).collect();
+    let mut ranges = extents(points.chain(planned.iter().copied()));
+    if let Some(plan) = &judged.log.plan {
+        let corners = plan.walls.iter().flatten().chain(plan.furniture.iter().flatten());
+        let [x, y] = extents(corners.map(|&[x, y]| (x, y)));
+        ranges = [around(&ranges[0], &x), around(&ranges[1], &y)];
+    }
+    let mut chart = Chart::with_equal_axes(ranges);
+    let mut legend = Vec::new();
+    if let Some(plan) = &judged.log.plan {
+        chart.plan(plan);
+    }
+    if !planned.is_empty() {
+        chart.line("planned", &planned);
+        legend.push(Key::new("line planned", "planned"));
+    }
+    (chart, legend)
+}
+
+/// The range of what is shown, and as much of the plan as is near.
+fn around(shown: &Range<f64>, plan: &Range<f64>) -> Range<f64> {
+    let near = shown.start - AROUND..shown.end + AROUND;
+    shown.start.min(plan.start.clamp(near.start, near.end))..shown.end.max(plan.end.clamp(near.start, near.end))
+}
+
+fn extents(points: impl Iterator<Item = (f64, f64)> + Clone) -> [Range<f64>; 2] {
+    [extent(points.clone().map(|point| point.0)), extent(points.map(|point| point.1))]
+}
+
 /// From the least to the greatest finite value, with some air.
-fn extent(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values
         .filter(|value| value.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
