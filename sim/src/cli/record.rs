@@ -7,7 +7,7 @@ use clap::Args;
 use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer, stage};
 use crate::record::writer::RecordingWriter;
-use crate::runner;
+use crate::runner::{Run, expected_frames};
 use crate::scenario::{AnyScenario, Scenario, Source};
 use crate::textured_room;
 
@@ -53,9 +53,17 @@ impl Record {
         let calibration = simulator.calibration().clone();
         let writer = RecordingWriter::create(&self.out, &calibration)?;
         let localizers = stage::localizers(scenario, calibration.rig)?;
-        let progress = stage::progress_bar("recording", runner::expected_frames(scenario));
-        let on_frame = || progress.inc(1);
-        let outcome = runner::run(String::new(), scenario, &mut simulator, localizers, Some(&writer), &on_frame);
+        let progress = stage::progress_bar("recording", expected_frames(scenario));
+        let run = Run {
+            name: "",
+            scenario,
+            world: &world,
+            simulator: &mut simulator,
+            localizers,
+            recording: Some(&writer),
+            on_frame: &|| progress.inc(1),
+        };
+        let outcome = run.drive();
         progress.finish_and_clear();
         outcome.map_err(|error| stage::blame(source, error))?;
         writer.finish()?;

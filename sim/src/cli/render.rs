@@ -4,7 +4,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use glam::DAffine3;
 use image::{GrayImage, ImageBuffer, Luma, RgbImage};
 use nalgebra::{Isometry3, Vector3};
 use sunblind_estimator::fusion::PlanarPose;
@@ -158,15 +157,15 @@ impl<'a> View<'a> {
     fn sweep(&self, place: &PathPoint) -> Sweep {
         let world_from_robot = PlanarPose::new(place.position.x, place.position.y, place.heading).to_isometry();
         let speed = self.scenario.path.speed;
-        let moved = |seconds: f64| -> DAffine3 {
+        let moved = |seconds: f64| {
             let turned = speed * place.curvature * seconds;
             // Along the chord: an arc's, of so small an angle.
             let (sin, cos) = (0.5 * turned).sin_cos();
             let chord = speed * seconds * Vector3::new(cos, sin, 0.0);
             let motion = Isometry3::new(chord, Vector3::z() * turned);
-            affine(&(world_from_robot * motion * self.robot_from_infrared))
+            world_from_robot * motion * self.robot_from_infrared
         };
-        Sweep { start: moved(-0.5 * FRAME_INTERVAL), end: moved(0.5 * FRAME_INTERVAL) }
+        Sweep::between(&moved(-0.5 * FRAME_INTERVAL), &moved(0.5 * FRAME_INTERVAL))
     }
 }
 

@@ -7,7 +7,7 @@ use clap::Args;
 use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer, output, stage, table, tell};
 use crate::report;
-use crate::runner;
+use crate::runner::{self, log::RunLog};
 use crate::scenario::{AnyScenario, Fault, Scenario, Source};
 
 const HELP: &str = "\
@@ -79,13 +79,33 @@ fn run(name: &str, source: &Source, scenario: &Scenario, out: &Path) -> Result<u
     let mut simulator = stage::simulator(source, scenario, &world)?;
     let localizers = stage::localizers(scenario, simulator.calibration().rig.clone())?;
     let progress = stage::progress_bar(name, runner::expected_frames(scenario));
-    let outcome = runner::run(name.to_owned(), scenario, &mut simulator, localizers, None, &|| progress.inc(1));
+    let run = runner::Run {
+        name,
+        scenario,
+        world: &world,
+        simulator: &mut simulator,
+        localizers,
+        recording: None,
+        on_frame: &|| progress.inc(1),
+    };
+    let outcome = run.drive();
     progress.finish_and_clear();
     let log = outcome.map_err(|error| stage::blame(source, error))?;
     for warning in &log.warnings {
         tell(&format!("warning: {warning}"));
     }
     output::publish(out, |folder| report::write(&log, folder).map(drop))?;
-    answer(&format!("{name}\n{}\nreport: {}", table::of(&log), out.join("report.html").display()));
-    Ok(0)
+    answer(&format!("{}\n{}", headline(name, &log), table::of(&log)));
+    if !log.expectations.is_empty() {
+        answer(&table::of_expectations(&log.expectations));
+    }
+    answer(&format!("report: {}", out.join("report.html").display()));
+    Ok(log.expectations.iter().filter(|expectation| !expectation.held).count())
+}
+
+/// What was driven, and how quickly it was computed.
+fn headline(name: &str, log: &RunLog) -> String {
+    let Some(facts) = &log.facts else { return name.to_owned() };
+    let factor = facts.duration / log.wall;
+    format!("{name}: {:.1} m in {:.1} s, simulated at {factor:.2} times real time", facts.path, facts.duration)
 }

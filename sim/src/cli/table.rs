@@ -5,6 +5,7 @@ use sunblind_estimator::Health;
 
 use crate::evaluation::evaluate;
 use crate::runner::log::{RunLog, Track};
+use crate::scenario::expect::Judged;
 
 const HEADER: [&str; 8] = ["track", "ATE m", "RPE m", "RPE °", "drift %", "frames", "lost", "ms/frame"];
 
@@ -16,6 +17,20 @@ pub(super) fn of(log: &RunLog) -> String {
         table.add_row(row(track, log));
     }
     for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.to_string()
+}
+
+/// What had to hold and did or did not.
+pub(super) fn of_expectations(expectations: &[Judged]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(["expected", "value", "bound", ""]);
+    for Judged { name, value, bound, held } in expectations {
+        let value = if value.is_finite() { format!("{value:.4}") } else { "–".to_owned() };
+        table.add_row([name.clone(), value, bound.to_string(), if *held { "held" } else { "missed" }.to_owned()]);
+    }
+    if let Some(column) = table.column_mut(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table.to_string()

@@ -128,14 +128,31 @@ impl Kinect {
     /// # Errors
     /// The graphics adapter stopped working.
     pub fn capture(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<KinectFrame, RenderError> {
+        let (rgb, infrared) = self.expose(world_from_infrared, frame)?;
+        Ok(KinectFrame { rgb, depth_raw: self.depth(&infrared), infrared })
+    }
+
+    /// The two cameras' images of [`capture`](Self::capture), without the depth that follows from the second.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    pub fn expose(
+        &mut self,
+        world_from_infrared: &Sweep,
+        frame: u64,
+    ) -> Result<(RgbImage, InfraredImage), RenderError> {
         while !self.settled {
             self.settle(world_from_infrared)?;
         }
         let images = self.renderer.render(&self.frame(world_from_infrared, frame))?;
         self.follow_light(&images, FRAME_INTERVAL);
         let (colour, infrared) = (&self.calibration.colour, &self.calibration.infrared);
-        let infrared = image(infrared.size(), images.infrared);
-        Ok(KinectFrame { rgb: image(colour.size(), images.colour), depth_raw: self.matcher.depth(&infrared), infrared })
+        Ok((image(colour.size(), images.colour), image(infrared.size(), images.infrared)))
+    }
+
+    /// The raw disparity that the device finds in an infrared image.
+    pub fn depth(&self, infrared: &InfraredImage) -> DepthImage {
+        self.matcher.depth(infrared)
     }
 
     /// True depth (z, metres) of each of the last frame's infrared pixels. For judging, never for the estimator.

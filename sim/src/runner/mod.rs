@@ -1,6 +1,6 @@
 //! Drives localisers through what was measured: the only caller of the estimator.
 //!
-//! [`replay`] is the way in for a recording, [`run`] for a scenario; a [`Session`] takes measurements as they come, from
+//! [`replay`] is the way in for a recording, a [`Run`] for a scenario; a [`Session`] takes measurements as they come, from
 //! anywhere. A localiser of your own is scored in a few lines:
 //!
 //! ```no_run
@@ -27,7 +27,7 @@ mod replay;
 mod session;
 mod stage_clock;
 
-pub use closed_loop::{RunError, expected_frames, run};
+pub use closed_loop::{Run, RunError, expected_frames};
 pub use driven::Driven;
 pub use replay::{ReplayError, ReplayOptions, replay};
 pub use session::Session;

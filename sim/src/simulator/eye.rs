@@ -1,10 +1,13 @@
-//! The Kinect on a thread of its own: it renders a frame while the robot drives on.
+//! The Kinect on a thread of its own: it renders a frame while the robot drives on and the estimator thinks.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
+use cpu_time::ThreadTime;
+use rayon::ThreadPoolBuilder;
 use sunblind_estimator::image::Image;
 use sunblind_estimator::{MeasurementData, Timestamp};
 
@@ -14,7 +17,9 @@ use crate::render::{Adapter, RenderError, Sweep};
 /// One frame's images, of one instant.
 pub(super) struct Images {
     pub captured_at: Timestamp,
-    pub data: Vec<MeasurementData>,
+    pub data: [MeasurementData; 3],
+    /// What finding depth in the infrared image took.
+    pub depth_cost: Duration,
 }
 
 struct Order {
@@ -41,10 +46,11 @@ impl Eye {
         let (orders, received) = channel::<Order>();
         let (answer, answers) = channel();
         let work = move || {
-            for Order { captured_at, world_from_infrared, frame } in received {
-                let images = capture(&mut kinect, &world_from_infrared, frame, true_depth)
-                    .map(|data| Images { captured_at, data });
-                if answer.send(images).is_err() {
+            // Depth is found by this thread alone: the other cores are the estimator's and the renderer's. Should the
+            // pool not be had, all cores help, with the same result.
+            let _pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+            for order in received {
+                if answer.send(capture(&mut kinect, order, true_depth)).is_err() {
                     return;
                 }
             }
@@ -99,23 +105,21 @@ impl Drop for Eye {
     }
 }
 
-fn capture(
-    kinect: &mut Kinect,
-    world_from_infrared: &Sweep,
-    frame: u64,
-    true_depth: bool,
-) -> Result<Vec<MeasurementData>, RenderError> {
-    let images = kinect.capture(world_from_infrared, frame)?;
+fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images, RenderError> {
+    let (rgb, infrared) = kinect.expose(&order.world_from_infrared, order.frame)?;
+    let started = ThreadTime::now();
     let depth = if true_depth {
         let depth = kinect.true_depth()?;
         let raw = depth.pixels().iter().map(|&z| kinect.calibration().raw_of(f64::from(z))).collect();
         Image::from_pixels(depth.width(), depth.height(), raw).expect("one value a pixel")
     } else {
-        images.depth_raw
+        kinect.depth(&infrared)
     };
-    Ok(vec![
-        MeasurementData::Rgb(Arc::new(images.rgb)),
-        MeasurementData::Infrared(Arc::new(images.infrared)),
+    let depth_cost = started.elapsed();
+    let data = [
+        MeasurementData::Rgb(Arc::new(rgb)),
+        MeasurementData::Infrared(Arc::new(infrared)),
         MeasurementData::Depth(Arc::new(depth)),
-    ])
+    ];
+    Ok(Images { captured_at: order.captured_at, data, depth_cost })
 }

@@ -4,6 +4,7 @@
 mod eye;
 
 use std::collections::{BTreeMap, VecDeque};
+use std::time::Duration;
 
 use nalgebra::{Isometry3, Vector3};
 use rand_chacha::rand_core::Rng;
@@ -65,6 +66,7 @@ pub struct Simulator {
     /// Of the readings since the last one that was sent: sum and count.
     gyro: (Vector3<f64>, f64),
     under_way: BTreeMap<Arrival, Measurement>,
+    depth_cost: Duration,
     /// Every step's pose, as far back as an exposure may lie.
     recent: VecDeque<StampedPose>,
     truth: Vec<StampedPose>,
@@ -100,6 +102,7 @@ impl Simulator {
             robot_from_infrared,
             gyro: (Vector3::zeros(), 0.0),
             under_way: BTreeMap::new(),
+            depth_cost: Duration::ZERO,
             recent: VecDeque::new(),
             truth: Vec::new(),
         };
@@ -130,6 +133,11 @@ impl Simulator {
     /// Where it truly was so far.
     pub fn truth(&self) -> &[StampedPose] {
         &self.truth
+    }
+
+    /// CPU time that finding depth in the infrared images has taken.
+    pub fn depth_cost(&self) -> Duration {
+        self.depth_cost
     }
 
     /// Of a device that gives colour or infrared, never both, infrared is wanted from the next frame on.
@@ -200,7 +208,8 @@ impl Simulator {
         let latency = self.calibration.latency.clone();
         let has_arrived = |captured_at| latency.available_at(Sensor::Depth, captured_at) <= now;
         while self.eye.oldest().is_some_and(has_arrived) {
-            let Images { captured_at, data } = self.eye.wait()?;
+            let Images { captured_at, data, depth_cost } = self.eye.wait()?;
+            self.depth_cost += depth_cost;
             let unwanted = match (self.exclusive, self.wants_infrared) {
                 (false, _) => None,
                 (true, true) => Some(Sensor::Colour),
