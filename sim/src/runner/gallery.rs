@@ -1,7 +1,7 @@
 //! The images of a run that are kept for its report.
 
 use sunblind_estimator::Rig;
-use sunblind_estimator::image::{Image, InfraredImage, RgbImage};
+use sunblind_estimator::image::{Image, RgbImage};
 use sunblind_estimator::odometry::FeatureTrack;
 
 use super::log::Snapshot;
@@ -52,7 +52,7 @@ fn snapshot(Shot { frame, infrared }: &Shot, rig: &Rig) -> Snapshot {
     Snapshot {
         time: frame.rgb_time,
         rgb: RgbImage::clone(&frame.rgb),
-        infrared: infrared.as_deref().map(InfraredImage::clone),
+        infrared: infrared.as_deref().cloned(),
         depth: Image::from_pixels(width, height, metres.collect()).expect("one value a pixel"),
         tracks: Vec::new(),
     }

@@ -1,14 +1,15 @@
 //! What only a map shows: walls, furniture, a robot.
 
 use std::fmt::Write;
+use std::ops::Range;
 
 use super::Chart;
 use crate::world::plan::Plan;
 
 /// How wide a wall's face is drawn, metres: two faces of a partition become one wall.
 const WALL_WIDTH: f64 = 0.16;
-/// Least length of the robot, in user units: in a large world it is drawn larger than it is.
-const LEAST_ROBOT: f64 = 15.0;
+/// Length of the robot in user units: in a large world it is drawn larger than it is, on a short way smaller.
+const DRAWN_ROBOT: Range<f64> = 15.0..50.0;
 /// Length of a Pioneer P3-AT, metres; its parts below are drawn in this unit.
 const ROBOT: f64 = 0.5;
 
@@ -36,7 +37,7 @@ impl Chart {
             ));
             return;
         };
-        let size = (ROBOT * self.per_metre()).max(LEAST_ROBOT);
+        let size = (ROBOT * self.per_metre()).clamp(DRAWN_ROBOT.start, DRAWN_ROBOT.end);
         // From above, nose to the right: what the camera sees, four wheels, the body, an arrow.
         self.add(format_args!(
             r#"<g class="robot" transform="translate({x:.1} {y:.1}) rotate({:.1})"><g transform="scale({size:.1})">
