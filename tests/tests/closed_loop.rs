@@ -1,0 +1,121 @@
+//! A simulated robot that drives on its own estimate: nothing cheats, and nothing depends on how it is computed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use sunblind_sim::record::Recording;
+use sunblind_sim::record::writer::RecordingWriter;
+use sunblind_sim::runner::log::RunLog;
+use sunblind_sim::runner::{Driven, ReplayOptions, Run, replay};
+use sunblind_sim::scenario::{AnyScenario, Scenario, load};
+use sunblind_sim::simulator::Simulator;
+use sunblind_tests::command::{stderr_of, stdout_of, sunblind};
+
+fn shipped(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios").join(name)
+}
+
+fn two_seconds_of_the_loop() -> Scenario {
+    let AnyScenario::Robot(scenario) = load(&shipped("lab_loop.toml")).unwrap() else { panic!("a robot's scenario") };
+    Scenario { duration: 2.0, expect: Vec::new(), ..*scenario }
+}
+
+fn localizers(scenario: &Scenario, simulator_or_recording: &sunblind_estimator::Rig) -> Vec<Driven> {
+    let params = scenario.estimator.params.clone();
+    vec![Driven::product("mvo", "visual odometry", params, simulator_or_recording.clone()).unwrap()]
+}
+
+fn drive(scenario: &Scenario, recording: Option<&Path>) -> RunLog {
+    let world = scenario.lit_world(&|_| {});
+    let mut simulator = Simulator::new(scenario, &world).unwrap();
+    let calibration = simulator.calibration().clone();
+    let writer = recording.map(|folder| RecordingWriter::create(folder, &calibration).unwrap());
+    let run = Run {
+        name: "loop",
+        scenario,
+        world: &world,
+        simulator: &mut simulator,
+        localizers: localizers(scenario, &calibration.rig),
+        recording: writer.as_ref(),
+        on_frame: &|| {},
+    };
+    let log = run.drive().unwrap();
+    if let Some(writer) = writer {
+        writer.finish().unwrap();
+    }
+    log
+}
+
+#[test]
+fn what_was_driven_and_what_is_replayed_without_the_truth_are_equal_to_the_bit() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("loop");
+    let scenario = two_seconds_of_the_loop();
+    let driven = drive(&scenario, Some(&folder));
+    fs::remove_file(folder.join("groundtruth.txt")).expect("the truth was recorded");
+
+    let recording = Recording::open(&folder, None).unwrap();
+    let replayed =
+        replay(&recording, localizers(&scenario, &recording.rig), &ReplayOptions::default()).expect("it is whole");
+    // Over every measurement and every estimate, before any truth places them.
+    assert_eq!(driven.digest, replayed.digest);
+    let counts = |log: &RunLog| log.tracks.iter().map(|track| track.frames.len()).collect::<Vec<_>>();
+    assert_eq!(counts(&driven), counts(&replayed));
+    assert!(counts(&driven).iter().all(|&frames| frames > 10), "{:?}", counts(&driven));
+    assert!(replayed.truth.is_empty() && !driven.truth.is_empty());
+
+    let other = drive(&Scenario { seed: scenario.seed + 1, ..scenario }, None);
+    assert_ne!(driven.digest, other.digest, "the seed decides nothing");
+}
+
+fn run(scenarios: &[&str], out: &Path, options: &[&str], threads_of_the_renderer: Option<&str>) -> Output {
+    let mut run = sunblind();
+    run.arg("run").args(scenarios.iter().map(|name| shipped(name))).arg("--out").arg(out).args(options);
+    if let Some(threads) = threads_of_the_renderer {
+        run.env("LP_NUM_THREADS", threads);
+    }
+    run.output().expect("sunblind runs")
+}
+
+fn digest_of(folder: &Path) -> String {
+    let summary = fs::read_to_string(folder.join("summary.json")).expect("a summary");
+    let digest = summary.split("\"digest\": \"").nth(1).and_then(|rest| rest.split('"').next());
+    digest.expect("a digest").to_owned()
+}
+
+#[test]
+fn the_digest_is_the_same_in_every_run_with_any_number_of_threads() {
+    let place = tempfile::tempdir().unwrap();
+    let short = ["--short", "--set", "short.duration_s=1.5", "--set", "short.expect=[]"];
+    let digests = [("again", None), ("one thread", Some("1")), ("three threads", Some("3"))].map(|(name, threads)| {
+        let out = place.path().join(name);
+        let output = run(&["lab_loop.toml"], &out, &short, threads);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr_of(&output));
+        digest_of(&out)
+    });
+    assert!(digests.iter().all(|digest| *digest == digests[0] && digest.len() == 64), "{digests:?}");
+}
+
+#[test]
+fn every_scenario_holds_in_its_short_form() {
+    let place = tempfile::tempdir().unwrap();
+    let names = ["lab_loop", "circle", "figure_eight"];
+    let files = names.map(|name| format!("{name}.toml"));
+    let output = run(&files.each_ref().map(String::as_str), place.path(), &["--short"], None);
+    assert_eq!(output.status.code(), Some(0), "{}{}", stdout_of(&output), stderr_of(&output));
+    for name in names {
+        assert!(place.path().join(name).join("report.html").is_file(), "{name}");
+        assert!(stdout_of(&output).contains(&format!("{name}: ")), "{}", stdout_of(&output));
+    }
+}
+
+#[test]
+fn what_must_fail_fails() {
+    let place = tempfile::tempdir().unwrap();
+    let output = run(&["canary.toml"], &place.path().join("out"), &["--short"], None);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr_of(&output));
+    assert!(stdout_of(&output).contains("missed") && stderr_of(&output).contains("1 expectation was missed"));
+    // The results of a run that missed something are there all the same.
+    assert!(place.path().join("out/report.html").is_file());
+}
