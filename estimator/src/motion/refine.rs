@@ -14,8 +14,9 @@ pub struct RefineParams {
     pub max_iterations: usize,
     /// Ends when a step is shorter than this, metres and radians.
     pub step_tolerance: f64,
-    /// Scale of the Cauchy weight 1 / (1 + (d/c)²), in σ; 2.4 keeps 95 % of the efficiency on normal errors
-    /// (Zhang 1997).
+    /// Scale of the Cauchy weight 1 / (1 + (d/c)²), in σ. 2.4 keeps 95 % of the efficiency on normal errors (Zhang 1997),
+    /// which those of matched features are not: with it their tails, matches that lag behind the motion, shorten a
+    /// drive along a corridor by 4 %, with 1 by 1 %, and a recorded kitchen's drift is a third less.
     pub cauchy_sigma: f64,
     /// Largest Mahalanobis distance of an inlier, in σ.
     pub max_distance_sigma: f64,
@@ -29,7 +30,7 @@ impl Default for RefineParams {
         Self {
             max_iterations: 20,
             step_tolerance: 1e-6,
-            cauchy_sigma: 2.4,
+            cauchy_sigma: 1.0,
             max_distance_sigma: 3.4,
             max_weakest_sigma: 0.05,
         }

@@ -57,7 +57,8 @@ impl Run {
         match scenario {
             AnyScenario::Robot(scenario) => Ok((source, *scenario)),
             AnyScenario::TexturedRoom(_) => {
-                let problem = "nobody drives through the textured room: `sunblind record` it, then `sunblind replay` that";
+                let problem =
+                    "nobody drives through the textured room: `sunblind record` it, then `sunblind replay` that";
                 Err(source.blame(Fault::new("world.name", problem)).into())
             }
         }
