@@ -18,7 +18,7 @@ use super::{Failure, answer};
 use crate::kinect::calibration::Calibration;
 use crate::kinect::{FRAME_INTERVAL, Kinect, affine};
 use crate::new_folder::{FolderError, Kind, NewFolder};
-use crate::render::{RenderError, Sweep};
+use crate::render::{Adapter, RenderError, Sweep};
 use crate::scenario::{AnyScenario, Fault, Scenario};
 use crate::world::World;
 
@@ -87,7 +87,9 @@ impl Render {
         if let Some(&at) = self.instants.iter().find(|at| **at > end) {
             return Err(Failure::BeyondPath { at, end });
         }
+        // Both before the light is computed, which takes a while.
         let folder = NewFolder::begin(&self.out, &PICTURES)?;
+        Adapter::find()?;
         let mut view = View::new(&scenario, &lit_world(&scenario), camera)?;
         let mut rows = Vec::new();
         for &at in &self.instants {

@@ -133,10 +133,7 @@ impl Kinect {
             self.settle(world_from_infrared)?;
         }
         let images = self.renderer.render(&self.frame(world_from_infrared, frame))?;
-        self.follow_light(&images, FRAME_INTERVAL);
-        let (colour, infrared) = (&self.calibration.colour, &self.calibration.infrared);
-        let infrared = image(infrared.size(), images.infrared);
-        Ok(KinectFrame { rgb: image(colour.size(), images.colour), depth_raw: self.matcher.depth(&infrared), infrared })
+        Ok(self.develop(images, FRAME_INTERVAL))
     }
 
     /// True depth (z, metres) of each of the last frame's infrared pixels. For judging, never for the estimator.
@@ -159,15 +156,20 @@ impl Kinect {
     fn settle(&mut self, world_from_infrared: &Sweep) -> Result<(), RenderError> {
         for _ in 0..SETTLING_IMAGES {
             let images = self.renderer.render(&self.frame(world_from_infrared, 0))?;
-            self.follow_light(&images, f64::INFINITY);
+            self.develop(images, f64::INFINITY);
         }
         self.settled = true;
         Ok(())
     }
 
-    fn follow_light(&mut self, images: &Images, elapsed: f64) {
+    /// Finds depth, and has the exposures follow the light, `elapsed` seconds after the last images.
+    fn develop(&mut self, images: Images, elapsed: f64) -> KinectFrame {
         self.colour_exposure.follow(colour_brightness(&images.colour), elapsed);
-        self.infrared_exposure.follow(infrared_brightness(&images.infrared), elapsed);
+        let infrared = image(self.calibration.infrared.size(), images.infrared);
+        let depth_raw = self.matcher.depth(&infrared);
+        let brightness = infrared_brightness(infrared.pixels(), depth_raw.pixels());
+        self.infrared_exposure.follow(brightness, elapsed);
+        KinectFrame { rgb: image(self.calibration.colour.size(), images.colour), infrared, depth_raw }
     }
 
     fn frame(&self, world_from_infrared: &Sweep, frame: u64) -> Frame {
