@@ -57,7 +57,7 @@ fn the_difficulty_of_recordings_is_shown_side_by_side() {
     let table = stdout_of(&run);
     let row = |label: &str| table.lines().find(|line| line.contains(label)).unwrap_or_default().to_owned();
     assert!(row("median of the frames").contains("tiny / tiny"), "{table}");
-    assert!(row("frames ").matches('5').count() == 2 && row("frames ").contains("1.00"), "{table}");
+    assert!(row("│ frames ").matches('5').count() == 2 && row("│ frames ").contains("1.00"), "{table}");
     assert!(row("keypoints").contains('┆') && row("RMSE of motion, mm").contains('┆'), "{table}");
 }
 

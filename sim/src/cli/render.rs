@@ -47,7 +47,13 @@ pub(super) struct Render {
     /// The scenario's file
     scenario: PathBuf,
     /// Seconds after the start; may be repeated
-    #[arg(long = "at", value_name = "SECONDS", default_value = "0", value_parser = seconds)]
+    #[arg(
+        long = "at",
+        value_name = "SECONDS",
+        default_value = "0",
+        value_parser = seconds,
+        allow_negative_numbers = true
+    )]
     instants: Vec<f64>,
     /// Where the pictures go
     #[arg(long, value_name = "DIR")]

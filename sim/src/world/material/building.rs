@@ -115,7 +115,7 @@ pub fn door_leaf(size: [f32; 2], seed: u32) -> Canvas {
     let [width, height] = size;
     canvas.shade(|x, y| {
         let bend = 0.05 * smooth(x / width, y / height, [2, 3], seed);
-        0.78 + 0.4 * fractal((x + bend) / width, y / height, [26, 2], 4, seed + 1)
+        0.6 + 0.8 * fractal((x + bend) / width, y / height, [26, 2], 5, seed + 1)
     });
     let steel = Coat::Opaque(STEEL);
     canvas.rectangle([0.02, height - 0.25, width - 0.02, height - 0.03], steel);
