@@ -50,6 +50,18 @@ fn a_run_ends_with_a_row_for_each_track_and_the_report() {
 }
 
 #[test]
+fn the_difficulty_of_recordings_is_shown_side_by_side() {
+    let recording = TinyRecording::new(5);
+    let run = sunblind().arg("difficulty").args([recording.folder(), recording.folder()]).output().unwrap();
+    assert_eq!(run.status.code(), Some(0), "{}", stderr_of(&run));
+    let table = stdout_of(&run);
+    let row = |label: &str| table.lines().find(|line| line.contains(label)).unwrap_or_default().to_owned();
+    assert!(row("median of the frames").contains("tiny / tiny"), "{table}");
+    assert!(row("│ frames ").matches('5').count() == 2 && row("│ frames ").contains("1.00"), "{table}");
+    assert!(row("keypoints").contains('┆') && row("RMSE of motion, mm").contains('┆'), "{table}");
+}
+
+#[test]
 fn a_closed_standard_output_is_no_bug() {
     let recording = TinyRecording::new(2);
     let mut run = sunblind();

@@ -16,7 +16,7 @@ use super::{Failure, answer, stage};
 use crate::kinect::calibration::Calibration;
 use crate::kinect::{FRAME_INTERVAL, Kinect};
 use crate::new_folder::{FolderError, Kind, NewFolder};
-use crate::render::{RenderError, Sweep};
+use crate::render::{Adapter, RenderError, Sweep};
 use crate::scenario::{AnyScenario, Fault, Scenario};
 use crate::world::World;
 
@@ -45,7 +45,13 @@ pub(super) struct Render {
     /// The scenario's file
     scenario: PathBuf,
     /// Seconds after the start; may be repeated
-    #[arg(long = "at", value_name = "SECONDS", default_value = "0", value_parser = seconds)]
+    #[arg(
+        long = "at",
+        value_name = "SECONDS",
+        default_value = "0",
+        value_parser = seconds,
+        allow_negative_numbers = true
+    )]
     instants: Vec<f64>,
     /// Where the pictures go
     #[arg(long, value_name = "DIR")]
@@ -85,7 +91,9 @@ impl Render {
         if let Some(&at) = self.instants.iter().find(|at| **at > end) {
             return Err(Failure::BeyondPath { at, end });
         }
+        // Both before the light is computed, which takes a while.
         let folder = NewFolder::begin(&self.out, &PICTURES)?;
+        Adapter::find()?;
         let mut view = View::new(&scenario, &stage::lit_world(&scenario), camera)?;
         let mut rows = Vec::new();
         for &at in &self.instants {

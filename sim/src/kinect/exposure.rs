@@ -1,5 +1,6 @@
 //! Automatic exposure: from the last image to the next one's exposure time and gain.
 
+use super::matcher::NO_DEPTH;
 use super::sensors::{Exposure, colour, infrared};
 
 /// Seconds in which a step in brightness is made up for but for 1/e. Estimate, 0.2 to 1.5 are plausible.
@@ -10,6 +11,8 @@ const COLOUR_TARGET: f64 = 0.18;
 const INFRARED_ABOVE: f64 = 0.02;
 /// Brightness aimed at for the brightest of the rest, of full scale. A guess, well below saturation.
 const INFRARED_TARGET: f64 = 0.6;
+/// Share of pixels with depth from which on only they are metered. A guess.
+const LEAST_WITH_DEPTH: f64 = 0.05;
 /// Most that one frame's metering is believed, in either direction: saturation hides how much too bright it was.
 const LARGEST_CORRECTION: f64 = 8.0;
 /// Every how many pixels the image is looked at.
@@ -74,9 +77,15 @@ pub(super) fn colour_brightness(pixels: &[[u8; 3]]) -> f64 {
     sum / pixels.len().div_ceil(STRIDE) as f64 / COLOUR_TARGET
 }
 
-/// Brightness of an infrared image but for its brightest pixels, relative to the target.
-pub(super) fn infrared_brightness(pixels: &[u16]) -> f64 {
-    let mut numbers: Vec<u16> = pixels.iter().step_by(STRIDE).copied().collect();
+/// Brightness of an infrared image but for its brightest pixels, relative to the target. Of the pixels that have depth,
+/// as the device's control looks at some ranges of depth (its driver's settings name them): a window in the view must not
+/// darken the dots. Of all pixels where too few have any.
+pub(super) fn infrared_brightness(pixels: &[u16], depth: &[u16]) -> f64 {
+    let sampled = || pixels.iter().zip(depth).step_by(STRIDE);
+    let mut numbers: Vec<u16> = sampled().filter(|(_, depth)| **depth != NO_DEPTH).map(|(number, _)| *number).collect();
+    if (numbers.len() as f64) < LEAST_WITH_DEPTH * sampled().len() as f64 {
+        numbers = sampled().map(|(number, _)| *number).collect();
+    }
     let rank = ((1.0 - INFRARED_ABOVE) * (numbers.len() - 1) as f64) as usize;
     let (_, number, _) = numbers.select_nth_unstable(rank);
     f64::from(*number) / 1023.0 / INFRARED_TARGET
@@ -101,6 +110,16 @@ mod tests {
             exposure.follow(100.0, f64::INFINITY);
         }
         assert_eq!(exposure.exposure(), Exposure { time: infrared::SHORTEST, gain: 1.0 });
+    }
+
+    #[test]
+    fn a_window_does_not_darken_the_dots() {
+        // A third of the view is a window without depth.
+        let pixel = |index: usize| if index.is_multiple_of(3) { (1000, NO_DEPTH) } else { (200, 800) };
+        let (numbers, depth): (Vec<u16>, Vec<u16>) = (0..3000).map(pixel).unzip();
+        let dots = 200.0 / 1023.0 / INFRARED_TARGET;
+        assert!((infrared_brightness(&numbers, &depth) - dots).abs() < 1e-9);
+        assert!(infrared_brightness(&numbers, &[NO_DEPTH; 3000]) > 1.5, "where nothing has depth, all of it counts");
     }
 
     #[test]

@@ -128,31 +128,24 @@ impl Kinect {
     /// # Errors
     /// The graphics adapter stopped working.
     pub fn capture(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<KinectFrame, RenderError> {
-        let (rgb, infrared) = self.expose(world_from_infrared, frame)?;
-        Ok(KinectFrame { rgb, depth_raw: self.depth(&infrared), infrared })
+        let images = self.expose(world_from_infrared, frame)?;
+        Ok(self.develop(images))
     }
 
-    /// The two cameras' images of [`capture`](Self::capture), without the depth that follows from the second.
+    /// The first half of [`capture`](Self::capture): what the graphics adapter does.
     ///
     /// # Errors
     /// The graphics adapter stopped working.
-    pub fn expose(
-        &mut self,
-        world_from_infrared: &Sweep,
-        frame: u64,
-    ) -> Result<(RgbImage, InfraredImage), RenderError> {
+    pub fn expose(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<Images, RenderError> {
         while !self.settled {
             self.settle(world_from_infrared)?;
         }
-        let images = self.renderer.render(&self.frame(world_from_infrared, frame))?;
-        self.follow_light(&images, FRAME_INTERVAL);
-        let (colour, infrared) = (&self.calibration.colour, &self.calibration.infrared);
-        Ok((image(colour.size(), images.colour), image(infrared.size(), images.infrared)))
+        self.renderer.render(&self.frame(world_from_infrared, frame))
     }
 
-    /// The raw disparity that the device finds in an infrared image.
-    pub fn depth(&self, infrared: &InfraredImage) -> DepthImage {
-        self.matcher.depth(infrared)
+    /// The second half: finds depth, and has the exposures follow the light.
+    pub fn develop(&mut self, images: Images) -> KinectFrame {
+        self.develop_after(FRAME_INTERVAL, images)
     }
 
     /// True depth (z, metres) of each of the last frame's infrared pixels. For judging, never for the estimator.
@@ -175,15 +168,20 @@ impl Kinect {
     fn settle(&mut self, world_from_infrared: &Sweep) -> Result<(), RenderError> {
         for _ in 0..SETTLING_IMAGES {
             let images = self.renderer.render(&self.frame(world_from_infrared, 0))?;
-            self.follow_light(&images, f64::INFINITY);
+            self.develop_after(f64::INFINITY, images);
         }
         self.settled = true;
         Ok(())
     }
 
-    fn follow_light(&mut self, images: &Images, elapsed: f64) {
+    /// As [`develop`](Self::develop), `elapsed` seconds after the last images.
+    fn develop_after(&mut self, elapsed: f64, images: Images) -> KinectFrame {
         self.colour_exposure.follow(colour_brightness(&images.colour), elapsed);
-        self.infrared_exposure.follow(infrared_brightness(&images.infrared), elapsed);
+        let infrared = image(self.calibration.infrared.size(), images.infrared);
+        let depth_raw = self.matcher.depth(&infrared);
+        let brightness = infrared_brightness(infrared.pixels(), depth_raw.pixels());
+        self.infrared_exposure.follow(brightness, elapsed);
+        KinectFrame { rgb: image(self.calibration.colour.size(), images.colour), infrared, depth_raw }
     }
 
     fn frame(&self, world_from_infrared: &Sweep, frame: u64) -> Frame {

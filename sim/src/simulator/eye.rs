@@ -11,7 +11,7 @@ use rayon::ThreadPoolBuilder;
 use sunblind_estimator::image::Image;
 use sunblind_estimator::{MeasurementData, Timestamp};
 
-use crate::kinect::Kinect;
+use crate::kinect::{Kinect, KinectFrame};
 use crate::render::{Adapter, RenderError, Sweep};
 
 /// One frame's images, of one instant.
@@ -106,20 +106,19 @@ impl Drop for Eye {
 }
 
 fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images, RenderError> {
-    let (rgb, infrared) = kinect.expose(&order.world_from_infrared, order.frame)?;
+    let exposed = kinect.expose(&order.world_from_infrared, order.frame)?;
     let started = ThreadTime::now();
-    let depth = if true_depth {
+    let KinectFrame { rgb, infrared, mut depth_raw } = kinect.develop(exposed);
+    let depth_cost = started.elapsed();
+    if true_depth {
         let depth = kinect.true_depth()?;
         let raw = depth.pixels().iter().map(|&z| kinect.calibration().raw_of(f64::from(z))).collect();
-        Image::from_pixels(depth.width(), depth.height(), raw).expect("one value a pixel")
-    } else {
-        kinect.depth(&infrared)
-    };
-    let depth_cost = started.elapsed();
+        depth_raw = Image::from_pixels(depth.width(), depth.height(), raw).expect("one value a pixel");
+    }
     let data = [
         MeasurementData::Rgb(Arc::new(rgb)),
         MeasurementData::Infrared(Arc::new(infrared)),
-        MeasurementData::Depth(Arc::new(depth)),
+        MeasurementData::Depth(Arc::new(depth_raw)),
     ];
     Ok(Images { captured_at: order.captured_at, data, depth_cost })
 }

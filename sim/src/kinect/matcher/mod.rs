@@ -1,8 +1,10 @@
 //! Depth from the infrared image alone: every window of it is sought in the stored image of the pattern on the
-//! reference plane. Nothing here knows of light, sun or truth; a window that resembles nothing has no depth.
+//! reference plane. Nothing here knows of light, sun or truth; a window that resembles nothing has no depth, unless the hole
+//! is a narrow one.
 //!
 //! A surface nearer than the reference plane shows the pattern further right, by b·f·(1/z − 1/z₀) pixels.
 
+mod holes;
 mod lanes;
 mod refine;
 mod residual;
@@ -84,6 +86,7 @@ impl Matcher {
                 self.reference.refine_row(&live, top + row, inside, |x, shift| raw[x] = raw_of_shift(shift));
             }
         });
+        holes::close(&mut depth);
         depth
     }
 }

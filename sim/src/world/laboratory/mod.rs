@@ -56,8 +56,8 @@ const INNER_DOOR: [f32; 2] = [5.0, 6.2];
 
 /// Longest edge of a triangle on floors where something stands, and on worktops, metres: shadows' edges are about as
 /// soft as that. Elsewhere the shapes' own cuts do.
-const EDGE_AT_CONTACTS: f32 = 0.13;
-const EDGE_ON_WORKTOPS: f32 = 0.22;
+const EDGE_AT_CONTACTS: f32 = 0.17;
+const EDGE_ON_WORKTOPS: f32 = 0.3;
 
 /// Builds the laboratory; `seed` decides on textures and on what fills the shelves. Light is yet to be baked.
 pub fn laboratory(seed: u64) -> World {

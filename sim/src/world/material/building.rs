@@ -25,7 +25,7 @@ pub fn wall_paint(size: [f32; 2], seed: u32) -> Canvas {
     canvas
 }
 
-/// Ceramic tiles of 30 cm with speckle, each of its own tone, grouted.
+/// Terrazzo tiles of 30 cm, each of its own tone, grouted.
 pub fn floor_tile(size: [f32; 2], seed: u32) -> Canvas {
     let mut canvas = Canvas::new(size, CERAMIC);
     let edge = 0.3;
@@ -38,11 +38,15 @@ pub fn floor_tile(size: [f32; 2], seed: u32) -> Canvas {
         [r * warm[0], g * warm[1], b * warm[2], infrared]
     });
     canvas.mottle(0.08, 4, 0.16, seed + 2);
-    // Terrazzo-like flecks, dark and light, of 4 to 10 mm.
-    for fleck in 0..900 {
-        let [x, y, tone, radius] = [0, 1, 2, 3].map(|i| hash(fleck, i, seed + 3));
-        let tone = if tone > 0.5 { [0.62, 0.61, 0.57, 0.64] } else { [0.17, 0.16, 0.15, 0.2] };
-        canvas.disc([x * size[0], y * size[1]], 0.002 + 0.004 * radius, Coat::Opaque(tone));
+    // Terrazzo: chips of marble, dark, light and reddish, of 5 to 40 mm, most of them small.
+    for chip in 0..2200 {
+        let [x, y, tone, radius] = [0, 1, 2, 3].map(|i| hash(chip, i, seed + 3));
+        let tone = match tone {
+            0.6.. => [0.62, 0.61, 0.57, 0.64],
+            0.2.. => [0.17, 0.16, 0.15, 0.2],
+            _ => [0.33, 0.22, 0.17, 0.38],
+        };
+        canvas.disc([x * size[0], y * size[1]], 0.0025 + 0.0175 * radius.powi(3), Coat::Opaque(tone));
     }
     for line in 0..count {
         let at = (line as f32 + 0.5) * edge;
@@ -53,7 +57,7 @@ pub fn floor_tile(size: [f32; 2], seed: u32) -> Canvas {
     canvas
 }
 
-/// Loop pile in squares of 50 cm, each turned a quarter against its neighbour; flecked, worn.
+/// Loop pile in squares of 50 cm, each turned a quarter against its neighbour; flecked, dashed with other yarn, worn.
 pub fn carpet(size: [f32; 2], seed: u32) -> Canvas {
     let mut canvas = Canvas::new(size, CARPET);
     let [width, height] = size;
@@ -68,6 +72,16 @@ pub fn carpet(size: [f32; 2], seed: u32) -> Canvas {
         // At 830 nm only the pile's own shadows are left.
         [r * visible, g * visible, b * visible, infrared * (0.6 + 0.4 * rib)]
     });
+    // Dashes of other yarn along the ribs.
+    for dash in 0..420 {
+        let [x, y, tone, length] = [0, 1, 2, 3].map(|i| hash(dash, i, seed + 3));
+        let (x, y) = (x * width, y * height);
+        let turned = ((x / 0.5) as u32 + (y / 0.5) as u32) % 2 == 1;
+        let (wide, long) = (0.008, 0.02 + 0.06 * length);
+        let [right, bottom] = if turned { [x + wide, y + long] } else { [x + long, y + wide] };
+        let yarn = [0x8A97A8, 0x1B222C, 0x5C7390][(tone * 3.0) as usize];
+        canvas.rectangle([x, y, right, bottom], Coat::Ink(colour(yarn)));
+    }
     canvas.mottle(0.25, 3, 0.2, seed + 2);
     for at in [0.0, 0.5] {
         for area in [[at, 0.0, at + 0.004, height], [0.0, at, width, at + 0.004]] {
@@ -101,7 +115,7 @@ pub fn door_leaf(size: [f32; 2], seed: u32) -> Canvas {
     let [width, height] = size;
     canvas.shade(|x, y| {
         let bend = 0.05 * smooth(x / width, y / height, [2, 3], seed);
-        0.78 + 0.4 * fractal((x + bend) / width, y / height, [26, 2], 4, seed + 1)
+        0.6 + 0.8 * fractal((x + bend) / width, y / height, [26, 2], 5, seed + 1)
     });
     let steel = Coat::Opaque(STEEL);
     canvas.rectangle([0.02, height - 0.25, width - 0.02, height - 0.03], steel);
