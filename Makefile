@@ -12,9 +12,8 @@ build: ## the sunblind command
 	@.ci/setup
 	cargo build --release --workspace
 
-demo: build ## records a room with known truth, replays it, ends with a report
-	$(SUNBLIND) record scenarios/textured_room.toml --out $(OUT)/textured_room
-	$(SUNBLIND) replay $(OUT)/textured_room --out $(OUT)/demo
+demo: build ## a robot drives through a laboratory on its own estimate; ends with a report
+	$(SUNBLIND) run scenarios/lab_loop.toml --out $(OUT)/demo
 	@.ci/show $(OUT)/demo/report.html
 
 test: build ## formatting and every test

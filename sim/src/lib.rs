@@ -1,10 +1,11 @@
 //! Runs, records, replays and judges localisation. `record` reads and writes recordings, `runner` drives the
 //! estimator (the only room that does), `evaluation` holds it against the truth, `report` shows the result,
-//! `new_folder` puts it in its place whole or not at all, `false_colour` shows depth, `cli` is the command line; `textured_room` makes a small
-//! recording with known truth on the CPU.
+//! `new_folder` puts it in its place whole or not at all, `cli` is the command line.
 //!
-//! What is simulated: `world` is the place, `robot` the device, `physics` moves the one through the other (the only
-//! room that names the physics engine); `random` gives every effect its own stream.
+//! What is simulated: `scenario` says what, `simulator` is that as hardware would be. In it `world` is the place, `robot`
+//! the device, `physics` moves the one through the other (the only room that names the physics engine), `render` makes
+//! images (the only one that names wgpu), `kinect` makes of them what the device gives out; `random` gives every effect
+//! its own stream. `textured_room` makes a small recording with known truth without any of them.
 
 pub mod cli;
 pub mod evaluation;

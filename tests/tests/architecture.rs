@@ -133,6 +133,11 @@ fn only_physics_names_the_physics_engine() {
 }
 
 #[test]
+fn only_render_names_the_graphics_interface() {
+    only_this_room_says("render", &["wgpu::"]);
+}
+
+#[test]
 fn the_search_for_words_can_fail() {
     let sources = BTreeMap::from([(PathBuf::from("a.rs"), "let now = Instant::now();\n// Instant::now\n".to_owned())]);
     assert_eq!(mentions(&sources, &["Instant::"]).len(), 1);

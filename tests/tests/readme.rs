@@ -26,7 +26,9 @@ fn every_command_runs() {
         assert!(output.status.success(), "`{command}` ended with {}:\n{text}", output.status);
         println!("{command}\n{text}");
     }
-    for report in ["out/demo/report.html", "out/again/report.html", "out/fewer/report.html"] {
+    for report in
+        ["out/demo/report.html", "out/again/report.html", "out/fewer/report.html", "out/views/contact_sheet.png"]
+    {
         assert!(root().join(report).is_file(), "{report}");
     }
 }

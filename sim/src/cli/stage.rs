@@ -4,20 +4,22 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sunblind_estimator::{EstimatorParams, ParamError, Rig};
 
 use super::Failure;
+use crate::render::Adapter;
 use crate::runner::{Driven, RunError};
 use crate::scenario::meaning::Obstacles;
-use crate::scenario::{Scenario, ScenarioError, Source};
+use crate::scenario::{Scenario, Source};
 use crate::simulator::{Simulator, SimulatorError};
 use crate::world::World;
 
 /// The scenario's world under its light.
 ///
 /// # Errors
-/// When something stands in the path's way.
-pub(super) fn world(source: &Source, scenario: &Scenario) -> Result<World, ScenarioError> {
+/// When something stands in the path's way, or nothing here can render.
+pub(super) fn world(source: &Source, scenario: &Scenario) -> Result<World, Failure> {
     // Before the light, which may take a while.
     let obstacles = Obstacles::of(&scenario.world.name.build());
     scenario.check_way(|from, to| obstacles.leave_free(from, to)).map_err(|fault| source.blame(fault))?;
+    Adapter::find()?;
     Ok(lit_world(scenario))
 }
 
