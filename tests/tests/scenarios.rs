@@ -33,13 +33,13 @@ fn what_is_wrong_is_placed_and_the_others_are_checked_all_the_same() {
     let wrong = folder.path().join("wrong.toml");
     let good = fs::read_to_string(shipped("circle.toml")).expect("a scenario");
     for (from, to, problem) in [
-        ("radius_m = 0.5", "radius_cm = 50", "unknown key `radius_cm`"),
-        ("radius_m = 0.5", "radius_m = \"0.5 m\"", "expected a number"),
-        ("duration_s = 70.0", "duration_s = 0", "write a number from 0.1 to 3600"),
+        ("radius_m = 0.7", "radius_cm = 70", "unknown key `radius_cm`"),
+        ("radius_m = 0.7", "radius_m = \"0.7 m\"", "expected a number"),
+        ("duration_s = 90.0", "duration_s = 0", "write a number from 0.1 to 3600"),
         ("name = \"laboratory\"", "name = \"lab\"", "did you mean `laboratory`?"),
         ("floor = \"tile\"", "urdf = \"none.urdf\"", "no such file"),
         ("seed = 1", "seed = ", "expected"),
-        ("start_m = [4.3, 0.65]", "start_m = [4.3, 1.65]", "the path is blocked near (4."),
+        ("start_m = [2.6, 4.5]", "start_m = [2.6, 7.0]", "the path is blocked near (2."),
     ] {
         fs::write(&wrong, good.replace(from, to)).expect("a file");
         let line = good.lines().position(|line| line == from).expect("a line to change") + 1;

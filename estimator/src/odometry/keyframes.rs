@@ -273,8 +273,8 @@ mod tests {
             let tracking = odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
             furthest = furthest.max(tracking.pose.start_from_camera.translation.vector.norm());
         }
-        // One frame's own noise is about 2 mm; 300 steps of a walk would reach 30 mm.
-        assert!(furthest < 0.008, "{furthest}");
+        // One frame's own noise is about 2.3 mm, and none of 300 is beyond 4 σ; 300 steps of a walk would reach 35 mm.
+        assert!(furthest < 0.0092, "{furthest}");
         assert_eq!(odometry.window.len(), 1);
     }
 

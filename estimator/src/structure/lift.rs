@@ -121,14 +121,19 @@ mod tests {
     }
 
     #[test]
-    fn a_point_on_an_edge_is_trusted_less() {
-        let mut depth = RegisteredDepth::filled(640, 480, 3.0);
-        for row in depth.pixels_mut().chunks_mut(640) {
-            row[320..].fill(1.0);
+    fn a_point_on_an_edge_has_none_and_one_on_a_slant_is_trusted_less() {
+        let mut edge = RegisteredDepth::filled(640, 480, 3.0);
+        let mut slant = edge.clone();
+        for (edge, slant) in edge.pixels_mut().chunks_mut(640).zip(slant.pixels_mut().chunks_mut(640)) {
+            edge[320..].fill(1.0);
+            slant.iter_mut().enumerate().for_each(|(x, z)| *z += 0.02 * (x as f32 - 320.0));
         }
-        let sigma = |x: f32| lifted(&depth, x, 240.0).unwrap().covariance[(2, 2)].sqrt();
-        assert!(sigma(320.0) > 0.5);
-        assert!(sigma(340.0) < 0.01);
+        let sigma = |depth, x: f32| lifted(depth, x, 240.0).map(|landmark| landmark.covariance[(2, 2)].sqrt());
+        assert_eq!(sigma(&edge, 320.0), None);
+        assert!(sigma(&edge, 340.0).unwrap() < 0.01);
+        // Two centimetres a pixel, half of the window within two pixels of the middle.
+        let slanted = sigma(&slant, 320.0).unwrap();
+        assert!((0.03..0.09).contains(&slanted), "{slanted}");
     }
 
     #[test]
