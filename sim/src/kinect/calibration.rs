@@ -65,7 +65,7 @@ impl Calibration {
     pub fn raw_of(&self, z: f64) -> u16 {
         let per_distance = 1.0 / self.reference_distance - 1.0 / z;
         let raw = (REFERENCE_RAW + STEPS_PER_PIXEL * self.baseline * self.infrared.fx * per_distance).round();
-        if (0.0..f64::from(NO_DEPTH)).contains(&raw) { raw as u16 } else { NO_DEPTH }
+        if z > 0.0 && (0.0..f64::from(NO_DEPTH)).contains(&raw) { raw as u16 } else { NO_DEPTH }
     }
 
     /// What a perfect calibration of this unit would tell the estimator.
