@@ -8,7 +8,7 @@ use sunblind_estimator::image::DepthImage;
 use super::NO_DEPTH;
 
 /// The widest gap that is closed, pixels. A guess: real frames keep shadows of 15 px, and have no gaps of 8.
-const WIDEST: usize = 12;
+const WIDEST: usize = 8;
 /// Pixels with depth in a row that it takes on both sides: scattered matches in noise prove nothing. A guess.
 const FIRM: usize = 4;
 /// Raw steps between both sides up to which they are one surface.

@@ -6,11 +6,12 @@ use super::{NEAREST, RADIUS};
 
 /// Columns of the correlated window, a whole vector of 16-bit numbers; rows are 2·[`RADIUS`] + 1.
 const COLUMNS: usize = 8;
-/// Normalised correlation below which a match is none. Unrelated windows reach 0.5 by chance once in some thousand.
-const WEAKEST_CORRELATION: f32 = 0.5;
+/// Normalised correlation below which a match is none. Chosen so that shadows are as wide as geometry says: a window
+/// half in the shadow matches less.
+const WEAKEST_CORRELATION: f32 = 0.57;
 /// How far a shifted dot's correlation falls below that of unrelated windows, relative to the peak: dots have no
-/// neighbours. Chosen for least bias (measured: 0.03 of a step at most).
-const TROUGH: f32 = 0.25;
+/// neighbours. Chosen for least bias (measured: 0.02 of a step at most).
+const TROUGH: f32 = 0.4;
 /// How often the found candidate may turn out to be beside the best one.
 const CLIMB: usize = 2;
 

@@ -1,7 +1,5 @@
 //! What an image has beyond its local mean: the dots, without the light they lie in.
 
-use super::RADIUS;
-
 /// A row-major image of differences from the local mean.
 #[derive(Clone, Debug)]
 pub(super) struct Residual {
@@ -13,6 +11,9 @@ pub(super) struct Residual {
 
 /// Zeros after the last row, so that whole vectors can be read from its last pixels.
 const PADDING: usize = 8;
+/// Half the window of the local mean, pixels. Small, so that edges of shade spoil little; 5×5 positions of the pattern
+/// always hold a dot. Measured in an office's views: with 9×9 pixels two to three times as many matches are wrong.
+const RADIUS: usize = 2;
 const WINDOW: usize = 2 * RADIUS + 1;
 const AREA: u32 = (WINDOW * WINDOW) as u32;
 
@@ -65,10 +66,10 @@ mod tests {
     fn even_light_leaves_nothing_and_a_dot_stands_out() {
         let mut pixels = vec![500_u16; 30 * 20];
         assert!(Residual::of(&pixels, 30, 20).values.iter().all(|&value| value == 0));
-        pixels[10 * 30 + 15] += 81;
+        pixels[10 * 30 + 15] += 25;
         let residual = Residual::of(&pixels, 30, 20);
-        assert_eq!(residual.row(10)[15], 80);
-        assert_eq!(residual.row(7)[12], -1);
-        assert_eq!(residual.row(5)[15], 0);
+        assert_eq!(residual.row(10)[15], 24);
+        assert_eq!(residual.row(8)[13], -1);
+        assert_eq!(residual.row(7)[15], 0);
     }
 }

@@ -102,7 +102,7 @@ fn sub_pixel_shifts_are_not_drawn_to_whole_pixels() {
                 count += 1.0;
             });
         }
-        assert!((sum / count).abs() < 0.1, "{shift} px: {} steps", sum / count);
+        assert!((sum / count).abs() < 0.05, "{shift} px: {} steps", sum / count);
     }
 }
 
