@@ -69,8 +69,10 @@ impl Eye {
         let order = Order { captured_at, world_from_infrared, frame: self.ordered };
         self.ordered += 1;
         self.open.push_back(captured_at);
-        // Without a worker the answer will tell.
-        let _ = self.orders.as_ref().map(|orders| orders.send(order));
+        if let Some(orders) = &self.orders {
+            // Without a worker the answer will tell.
+            let _ = orders.send(order);
+        }
     }
 
     /// When the oldest frame was captured that nobody has asked for.
