@@ -174,7 +174,8 @@ impl Report {
     /// `what` names the unit; `target` is the published figure, `accepted` what passes for it.
     pub fn expect(&mut self, what: &str, target: f64, accepted: RangeInclusive<f64>, measured: f64) {
         let (low, high) = (accepted.start(), accepted.end());
-        let line = format!("{what:<52} target {target:10.5}  accepted {low:10.5} to {high:10.5}  measured {measured:10.5}");
+        let line =
+            format!("{what:<52} target {target:10.5}  accepted {low:10.5} to {high:10.5}  measured {measured:10.5}");
         println!("{line}");
         if !accepted.contains(&measured) {
             self.failures.push(line);
