@@ -47,6 +47,11 @@ impl<'a> Judged<'a> {
         self.log.tracks.iter().find_map(Timing::of)
     }
 
+    /// How many frames the camera took: one for each instant of the visual odometry, where there is one.
+    pub(super) fn camera_frames(&self) -> usize {
+        self.log.tracks.iter().map(|track| track.frames.len()).max().unwrap_or(0)
+    }
+
     /// When the first frame was taken.
     pub(super) fn start(&self) -> Option<Timestamp> {
         Some(self.track.frames.first()?.time)

@@ -27,6 +27,7 @@ struct Summary<'a> {
     duration_s: f64,
     /// Of the true path; of the judged estimator's own where there is no truth.
     path_m: f64,
+    /// That the camera took: a track that rests on wheels has fewer instants.
     frames: usize,
     /// Of the judged estimator.
     lost_frames: usize,
@@ -86,7 +87,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
         driver: facts.and_then(|facts| facts.driver.as_deref()),
         duration_s: judged.duration_of_run(),
         path_m: judged.path(),
-        frames: judged.track.frames.len(),
+        frames: judged.camera_frames(),
         lost_frames: lost_frames(judged.track),
         wall_s: log.wall,
         cpu_s: log.cpu,
