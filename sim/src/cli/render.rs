@@ -7,7 +7,7 @@ use clap::Args;
 use image::{GrayImage, ImageBuffer, Luma, RgbImage};
 use nalgebra::{Isometry3, Vector3};
 use sunblind_estimator::fusion::PlanarPose;
-use sunblind_estimator::guidance::PathPoint;
+use sunblind_estimator::guidance::{self, PathPoint};
 use sunblind_estimator::image::Image;
 
 use super::contact_sheet::{self, Row};
@@ -26,9 +26,11 @@ Examples:
       what the Kinect sees 20 s after the start
   sunblind render scenarios/lab_loop.toml --at 0 --at 10 --at 20 --out out/views --set light.lamps=false
       three places by daylight, one below the other on the contact sheet
+  sunblind render scenarios/yard_noon.toml scenarios/night.toml --at 10 --out out/lights
+      one place in two lights
 
 The robot is not simulated: the Kinect is put where the path leads in that time at the path's speed, moving as one who
-drives it would. The folder holds for each instant, in a folder of its own (20s/):
+drives it would. The folder holds for each instant, in a folder of its own (20s/; of several scenarios night/20s/):
   rgb.png          the colour image, 8-bit sRGB
   ir.png           the infrared image with the projector's dots; 8-bit, the square root of the 10-bit values, so that
                    shade shows as well as dots
@@ -38,12 +40,13 @@ and contact_sheet.png with all of them: depth in colours from bright (near) to d
 end or not at all; earlier pictures there are replaced. The light of a world is computed once, in about half a minute,
 and kept: `sunblind doctor` says where.";
 
-/// Show what the Kinect of a scenario sees at some instants.
+/// Show what the Kinect of some scenarios sees at some instants.
 #[derive(Args)]
 #[command(after_long_help = HELP)]
 pub(super) struct Render {
-    /// The scenario's file
-    scenario: PathBuf,
+    /// The scenarios' files
+    #[arg(required = true, value_name = "SCENARIO")]
+    scenarios: Vec<PathBuf>,
     /// Seconds after the start; may be repeated
     #[arg(
         long = "at",
@@ -71,42 +74,76 @@ const SHEET: &str = "contact_sheet.png";
 
 /// Nothing beside the sheet but folders with pictures.
 fn is_pictures(folder: &Path) -> bool {
-    let ours = |entry: io::Result<std::fs::DirEntry>| {
-        entry.is_ok_and(|entry| entry.file_name() == SHEET || entry.path().join("true_depth.png").is_file())
-    };
-    folder.join(SHEET).is_file() && std::fs::read_dir(folder).is_ok_and(|mut entries| entries.all(ours))
+    folder.join(SHEET).is_file() && holds_only(folder, |path| path.ends_with(SHEET) || is_instants(path))
+}
+
+/// One instant's pictures, or a scenario's: a folder with nothing but those.
+fn is_instants(folder: &Path) -> bool {
+    folder.join("true_depth.png").is_file() || folder.is_dir() && holds_only(folder, is_instants)
+}
+
+fn holds_only(folder: &Path, ours: impl Fn(&Path) -> bool) -> bool {
+    let ours = |entry: io::Result<std::fs::DirEntry>| entry.is_ok_and(|entry| ours(&entry.path()));
+    std::fs::read_dir(folder).is_ok_and(|mut entries| entries.all(ours))
+}
+
+/// A scenario's file, read.
+struct Shot {
+    name: String,
+    scenario: Box<Scenario>,
+    path: guidance::Path,
+    robot_from_camera: Isometry3<f64>,
 }
 
 impl Render {
     pub fn run(&self) -> Result<(), Failure> {
-        let (source, scenario) = self.changes.load(&self.scenario)?;
-        let AnyScenario::Robot(scenario) = scenario else {
-            let problem = "only a world that a robot drives through can be rendered; write name = \"laboratory\", or see \
-                           the textured room with `sunblind record`";
-            return Err(source.blame(Fault::new("world.name", problem)).into());
-        };
-        let path = scenario.path.shape().map_err(|fault| source.blame(fault))?;
-        let camera = scenario.robot_model().map_err(|fault| source.blame(fault))?.robot_from_camera;
-        let end = path.length() / scenario.path.speed;
-        if let Some(&at) = self.instants.iter().find(|at| **at > end) {
-            return Err(Failure::BeyondPath { at, end });
+        let mut shots: Vec<Shot> = self.scenarios.iter().map(|file| self.read(file)).collect::<Result<_, _>>()?;
+        for index in 1..shots.len() {
+            let (before, shot) = shots.split_at_mut(index);
+            if before.iter().any(|other| other.name == shot[0].name) {
+                shot[0].name += &format!("-{}", index + 1);
+            }
         }
         // Both before the light is computed, which takes a while.
         let folder = NewFolder::begin(&self.out, &PICTURES)?;
         Adapter::find()?;
-        let mut view = View::new(&scenario, &stage::lit_world(&scenario), camera)?;
         let mut rows = Vec::new();
-        for &at in &self.instants {
-            let seen = view.at(at, &path.at(at * scenario.path.speed))?;
-            let row = seen.into_row();
-            write(&folder.path().join(format!("{at}s")), &row).map_err(|source| self.unwritable(source))?;
-            rows.push(row);
+        for shot in &shots {
+            let mut view = View::new(&shot.scenario, &stage::lit_world(&shot.scenario), shot.robot_from_camera)?;
+            for &at in &self.instants {
+                let seen = view.at(at, &shot.path.at(at * shot.scenario.path.speed))?;
+                let mut row = seen.into_row();
+                let mut place = folder.path().to_owned();
+                if shots.len() > 1 {
+                    row.caption = format!("{}, {}", shot.name, row.caption);
+                    place.push(&shot.name);
+                }
+                write(&place.join(format!("{at}s")), &row).map_err(|source| self.unwritable(source))?;
+                rows.push(row);
+            }
         }
         let sheet = contact_sheet::draw(&rows).save(folder.path().join(SHEET));
         sheet.map_err(|error| self.unwritable(io::Error::other(error)))?;
         folder.publish()?;
         answer(&format!("{}", self.out.join(SHEET).display()));
         Ok(())
+    }
+
+    fn read(&self, file: &Path) -> Result<Shot, Failure> {
+        let (source, scenario) = self.changes.load(file)?;
+        let AnyScenario::Robot(scenario) = scenario else {
+            let problem = "only a world that a robot drives through can be rendered; write name = \"laboratory\", or see \
+                           the textured room with `sunblind record`";
+            return Err(source.blame(Fault::new("world.name", problem)).into());
+        };
+        let path = scenario.path.shape().map_err(|fault| source.blame(fault))?;
+        let robot_from_camera = scenario.robot_model().map_err(|fault| source.blame(fault))?.robot_from_camera;
+        let end = path.length() / scenario.path.speed;
+        if let Some(&at) = self.instants.iter().find(|at| **at > end) {
+            return Err(Failure::BeyondPath { at, end });
+        }
+        let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        Ok(Shot { name, scenario, path, robot_from_camera })
     }
 
     fn unwritable(&self, source: io::Error) -> FolderError {
@@ -240,7 +277,11 @@ mod tests {
         let sheet = folder.path().join(SHEET);
         std::fs::write(&sheet, "").unwrap();
         assert!(is_pictures(folder.path()));
-        std::fs::write(folder.path().join("thesis.tex"), "").unwrap();
+        let instant = folder.path().join("night/20s");
+        std::fs::create_dir_all(&instant).unwrap();
+        std::fs::write(instant.join("true_depth.png"), "").unwrap();
+        assert!(is_pictures(folder.path()));
+        std::fs::write(folder.path().join("night/thesis.tex"), "").unwrap();
         assert!(!is_pictures(folder.path()));
     }
 }
