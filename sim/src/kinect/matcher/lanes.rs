@@ -11,6 +11,7 @@ pub(super) struct Lanes(pub [u64; LANES]);
 
 impl Lanes {
     /// The same bit everywhere.
+    #[inline(always)]
     pub fn all(bit: bool) -> Self {
         Self([if bit { u64::MAX } else { 0 }; LANES])
     }
@@ -23,8 +24,12 @@ impl Lanes {
 }
 
 #[inline(always)]
-fn each(a: Lanes, b: Lanes, operation: impl Fn(u64, u64) -> u64) -> Lanes {
-    Lanes(std::array::from_fn(|lane| operation(a.0[lane], b.0[lane])))
+fn each(mut a: Lanes, b: Lanes, operation: impl Fn(u64, u64) -> u64) -> Lanes {
+    // A loop, here as elsewhere, as not all of an iterator's or an array's methods are sure to be inlined.
+    for lane in 0..LANES {
+        a.0[lane] = operation(a.0[lane], b.0[lane]);
+    }
+    a
 }
 
 impl BitXor for Lanes {
@@ -55,7 +60,7 @@ impl Not for Lanes {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Self(std::array::from_fn(|lane| !self.0[lane]))
+        each(self, self, |a, _| !a)
     }
 }
 
@@ -64,7 +69,7 @@ impl Shr<u32> for Lanes {
     /// Moves every word's bits down by itself; none pass from word to word.
     #[inline(always)]
     fn shr(self, places: u32) -> Self {
-        Self(std::array::from_fn(|lane| self.0[lane] >> places))
+        each(self, self, |a, _| a >> places)
     }
 }
 

@@ -10,12 +10,13 @@ mod refine;
 mod residual;
 mod search;
 
+use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use sunblind_estimator::image::{DepthImage, InfraredImage};
 
 use super::calibration::{Calibration, REFERENCE_RAW, STEPS_PER_PIXEL};
 use super::projector::Projector;
-use refine::{Live, Reference};
+use refine::{Live, NO_SHIFT, Reference, Row};
 use residual::Residual;
 use search::{BAND, BitImage, NO_MATCH, ReferenceBits};
 
@@ -69,6 +70,11 @@ impl Matcher {
     /// # Panics
     /// When the image is not of the size this unit's camera has.
     pub fn depth(&self, infrared: &InfraredImage) -> DepthImage {
+        self.depth_on(Arch::new(), infrared)
+    }
+
+    /// On a kind of processor that this one is, or is a better one than. All find the same.
+    fn depth_on(&self, processor: Arch, infrared: &InfraredImage) -> DepthImage {
         assert_eq!(infrared.size(), (self.width, self.height), "an infrared image of another camera");
         let live = Residual::of(infrared.pixels(), self.width, self.height);
         let live_bits = BitImage::of(&live, 0, self.width);
@@ -78,20 +84,46 @@ impl Matcher {
         let bands = depth.pixels_mut()[first..last].par_chunks_mut(BAND * self.width);
         bands.enumerate().for_each(|(band, raw)| {
             let top = RADIUS + band * BAND;
-            let mut found = vec![NO_MATCH; raw.len()];
-            self.bits.search(&live_bits, top, top + raw.len() / self.width, self.width, &mut found);
-            for (row, (raw, found)) in raw.chunks_exact_mut(self.width).zip(found.chunks_exact(self.width)).enumerate()
-            {
-                let inside = &found[..self.width - INVALID_BAND + RADIUS];
-                self.reference.refine_row(&live, top + row, inside, |x, shift| raw[x] = raw_of_shift(shift));
-            }
+            processor.dispatch(Band { matcher: self, live_bits: &live_bits, live: &live, top, raw });
         });
         holes::close(&mut depth);
         depth
     }
 }
 
-/// Rounds to the device's eighths of a pixel.
+/// Some rows of an image, from `top` on, and where their raw disparity goes. A type, and not a closure: what the
+/// processor is to run must be inlined whole, and a closure's call is not.
+struct Band<'a> {
+    matcher: &'a Matcher,
+    live_bits: &'a BitImage,
+    live: &'a Live,
+    top: usize,
+    raw: &'a mut [u16],
+}
+
+impl NullaryFnOnce for Band<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Matcher { bits, reference, width, .. } = self.matcher;
+        let mut found = vec![NO_MATCH; self.raw.len()];
+        bits.search(self.live_bits, self.top, self.top + self.raw.len() / width, *width, &mut found);
+        let (mut scratch, mut shifts) = (Row::new(*width), vec![NO_SHIFT; *width]);
+        let rows = self.raw.chunks_exact_mut(*width).zip(found.chunks_exact_mut(*width));
+        for (row, (raw, found)) in rows.enumerate() {
+            found[..RADIUS].fill(NO_MATCH);
+            found[width - INVALID_BAND..].fill(NO_MATCH);
+            reference.refine_row(self.live, self.top + row, found, &mut scratch, &mut shifts);
+            for (raw, &shift) in raw.iter_mut().zip(&shifts) {
+                *raw = raw_of_shift(shift);
+            }
+        }
+    }
+}
+
+/// Rounds to the device's eighths of a pixel; [`NO_SHIFT`] to [`NO_DEPTH`].
+#[inline(always)]
 fn raw_of_shift(shift: f32) -> u16 {
     // Converting cuts fractions off.
     let raw = (REFERENCE_RAW + 0.5) as f32 - STEPS_PER_PIXEL as f32 * shift;

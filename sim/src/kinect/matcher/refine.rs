@@ -12,6 +12,8 @@ const WEAKEST_CORRELATION: f32 = 0.57;
 /// How far a shifted dot's correlation falls below that of unrelated windows, relative to the peak: dots have no
 /// neighbours. Chosen for least bias (measured: 0.02 of a step at most).
 const TROUGH: f32 = 0.4;
+/// Written where there is none: as if nothing were ever so far away.
+pub(super) const NO_SHIFT: f32 = f32::NEG_INFINITY;
 /// How often the found candidate may turn out to be beside the best one.
 const CLIMB: usize = 2;
 
@@ -66,121 +68,144 @@ impl Reference {
         Self { residual, margin, inverse_norm }
     }
 
-    /// The depth engine's last step for row `y` of an image: from the candidates found for its pixels to shifts from
-    /// the reference, pixels, positive when nearer. `keep` gets each pixel that has one.
-    pub fn refine_row(&self, live: &Live, y: usize, candidates: &[u8], mut keep: impl FnMut(usize, f32)) {
-        let columns = RADIUS..candidates.len() - RADIUS;
-        let mut products = Products::new(columns.len());
-        let mut x = columns.start;
-        for run in candidates[columns].chunk_by(|a, b| a == b) {
+    /// The depth engine's last step for row `y` of an image: from the candidates found for its pixels, none near its
+    /// ends, to shifts from the reference, pixels, positive when nearer; [`NO_SHIFT`] where the window resembles the
+    /// reference too little.
+    #[inline(always)]
+    pub fn refine_row(&self, live: &Live, y: usize, candidates: &[u8], row: &mut Row, shifts: &mut [f32]) {
+        let mut x = 0;
+        for run in candidates.chunk_by(|a, b| a == b) {
+            let whole = if run[0] == NO_MATCH { NO_SHIFT } else { f32::from(run[0]) + NEAREST as f32 };
+            shifts[x..x + run.len()].fill(whole);
             if run[0] != NO_MATCH {
-                let shift = NEAREST + isize::from(run[0]);
-                // The reference's pixel for the middle one of three shifts.
-                let reference = (x + self.margin).wrapping_add_signed(-shift);
-                let first = [reference + 1, reference, reference - 1];
-                products.set(live, &self.residual, [x, y], first, run.len());
-                for at in 0..run.len() {
-                    let inverse_norms = &self.inverse_norm[y * self.residual.width + at..];
-                    let correlation = |place: usize| products.windows[place][at] as f32 * inverse_norms[first[place]];
-                    let around = [correlation(0), correlation(1), correlation(2)];
-                    if let Some(shift) = self.refine(live, x + at, y, shift, around) {
-                        keep(x + at, shift);
-                    }
-                }
+                self.correlate(live, [x, y], NEAREST + isize::from(run[0]), run.len(), row);
             }
             x += run.len();
         }
-    }
-
-    /// Climbs from a candidate with the correlations around it to the best one nearby; `None` when the window
-    /// resembles the reference too little.
-    fn refine(&self, live: &Live, x: usize, y: usize, mut shift: isize, mut around: [f32; 3]) -> Option<f32> {
-        for _ in 0..CLIMB {
-            if around[2] > around[1] {
-                shift += 1;
-                around = [around[1], around[2], self.correlation(live, x, y, shift + 1)];
-            } else if around[0] > around[1] {
-                shift -= 1;
-                around = [self.correlation(live, x, y, shift - 1), around[0], around[1]];
+        for (x, shift) in shifts.iter_mut().enumerate() {
+            if *shift != NO_SHIFT {
+                self.climb(live, [x, y], row, shift);
             }
         }
-        let [before, best, after] = around;
-        if best < before.max(after) || best <= WEAKEST_CORRELATION * live.norms[y * live.residual.width + x] {
-            return None;
+        let width = shifts.len();
+        let norms = &live.norms[y * live.residual.width..][..width];
+        let [befores, bests, afters] = row.around.each_ref().map(|correlations| &correlations[..width]);
+        // Without a branch, so that it is done for a vector of pixels at a time.
+        for x in 0..width {
+            let (before, best, after) = (befores[x], bests[x], afters[x]);
+            let found = (shifts[x] != NO_SHIFT) & (best >= before) & (best >= after);
+            let refined = shifts[x] + peak(before, best, after);
+            shifts[x] = if found & (best > WEAKEST_CORRELATION * norms[x]) { refined } else { NO_SHIFT };
         }
-        Some(shift as f32 + peak(before, best, after))
+    }
+
+    /// Correlates the windows of `length` pixels in a row, from (x, y) on, with the reference shifted by `shift`, by one
+    /// less and by one more.
+    #[inline(always)]
+    fn correlate(&self, live: &Live, [x, y]: [usize; 2], shift: isize, length: usize, row: &mut Row) {
+        let norms = &self.inverse_norm[y * self.residual.width..];
+        // Neighbouring windows share columns. Whole vectors of them, a few more than needed.
+        let columns = &mut row.columns[..length.next_multiple_of(COLUMNS) + COLUMNS];
+        for (place, around) in row.around.iter_mut().enumerate() {
+            let reference = (x + 1 + self.margin).wrapping_add_signed(-shift) - place;
+            for (vector, columns) in columns.as_chunks_mut().0.iter_mut().enumerate() {
+                let at = vector * COLUMNS;
+                *columns = self.column_products(live, x + at, reference + at, y);
+            }
+            // What the last vector has beyond the run, the next run overwrites.
+            let mut at = 0;
+            while at < length {
+                let norms: &[f32; COLUMNS] = norms[reference + at..].first_chunk().expect("a margin");
+                let around: &mut [f32; COLUMNS] = around[x + at..].first_chunk_mut().expect("a margin");
+                let products = sums_of_eight(&columns[at..]);
+                for lane in 0..COLUMNS {
+                    around[lane] = products[lane] as f32 * norms[lane];
+                }
+                at += COLUMNS;
+            }
+        }
+    }
+
+    /// Goes from a shift to the best one nearby.
+    #[inline(always)]
+    fn climb(&self, live: &Live, at: [usize; 2], row: &mut Row, shift: &mut f32) {
+        let [befores, bests, afters] = &mut row.around;
+        let (before, best, after) = (&mut befores[at[0]], &mut bests[at[0]], &mut afters[at[0]]);
+        for _ in 0..CLIMB {
+            if *after > *best {
+                *shift += 1.0;
+                (*before, *best) = (*best, *after);
+                *after = self.correlation(live, at, *shift as isize + 1);
+            } else if *before > *best {
+                *shift -= 1.0;
+                (*best, *after) = (*before, *best);
+                *before = self.correlation(live, at, *shift as isize - 1);
+            } else {
+                break;
+            }
+        }
     }
 
     /// Of one window with the reference shifted by `shift`, relative to how strong the reference is there.
-    fn correlation(&self, live: &Live, x: usize, y: usize, shift: isize) -> f32 {
+    #[inline(always)]
+    fn correlation(&self, live: &Live, [x, y]: [usize; 2], shift: isize) -> f32 {
         let reference = (x + self.margin).wrapping_add_signed(-shift);
-        let rows = (y - RADIUS..=y + RADIUS).map(|row| {
-            let live = &live.residual.row(row)[x - COLUMNS / 2..][..COLUMNS];
-            let reference = &self.residual.row(row)[reference - COLUMNS / 2..][..COLUMNS];
-            live.iter().zip(reference).map(|(&a, &b)| i32::from(a) * i32::from(b)).sum::<i32>()
-        });
-        rows.sum::<i32>() as f32 * self.inverse_norm[y * self.residual.width + reference]
-    }
-}
-
-/// Products of the windows of neighbouring pixels with the reference's, for each of three shifts. Neighbouring windows
-/// share all but one of their columns.
-struct Products {
-    columns: Vec<i32>,
-    pairs: Vec<i32>,
-    windows: [Vec<i32>; 3],
-}
-
-impl Products {
-    fn new(longest: usize) -> Self {
-        let room = vec![0; (longest + COLUMNS).next_multiple_of(COLUMNS)];
-        Self { columns: room.clone(), pairs: room.clone(), windows: [room.clone(), room.clone(), room] }
-    }
-
-    /// For `length` pixels of a row from `x` on, against the reference's from each of `first` on.
-    fn set(&mut self, live: &Live, reference: &Residual, [x, y]: [usize; 2], first: [usize; 3], length: usize) {
-        // Whole vectors of columns, a few more than needed.
-        let columns = (length + COLUMNS - 1).next_multiple_of(COLUMNS);
-        let sums = &mut self.columns[..columns];
-        let live_width = live.residual.width;
-        for (windows, first) in self.windows.iter_mut().zip(first) {
-            let live = live.residual.from(x - COLUMNS / 2, y - RADIUS);
-            let other = reference.from(first - COLUMNS / 2, y - RADIUS);
-            for (vector, sums) in sums.as_chunks_mut().0.iter_mut().enumerate() {
-                let (live, other) = (&live[vector * COLUMNS..], &other[vector * COLUMNS..]);
-                *sums = column_products(live, live_width, other, reference.width);
-            }
-            add_shifted(&mut self.pairs[..columns], sums, 1);
-            add_shifted(sums, &self.pairs[..columns], 2);
-            add_shifted(&mut windows[..columns], sums, 4);
+        let mut product = 0;
+        for column in self.column_products(live, x, reference, y) {
+            product += column;
         }
+        product as f32 * self.inverse_norm[y * self.residual.width + reference]
+    }
+
+    /// Products of the live image's columns with the reference's, summed over a window's rows around `y`: of those that
+    /// the windows around pixel `x` and the reference's pixel `reference` have.
+    #[inline(always)]
+    fn column_products(&self, live: &Live, x: usize, reference: usize, y: usize) -> [i32; COLUMNS] {
+        let live: &[_; 2 * RADIUS + 1] = live.residual.rows(y - RADIUS);
+        let reference_rows: &[_; 2 * RADIUS + 1] = self.residual.rows(y - RADIUS);
+        let mut sums = [0; COLUMNS];
+        for (live, other) in live.iter().zip(reference_rows) {
+            let live: &[i16; COLUMNS] = live[x - COLUMNS / 2..].first_chunk().expect("room at the end");
+            let other: &[i16; COLUMNS] = other[reference - COLUMNS / 2..].first_chunk().expect("room at the end");
+            for lane in 0..COLUMNS {
+                sums[lane] += i32::from(live[lane]) * i32::from(other[lane]);
+            }
+        }
+        sums
     }
 }
 
-/// Products of the columns of two images, summed over a window's rows.
+/// What is known of a row of pixels while it is refined.
+pub(super) struct Row {
+    columns: Vec<i32>,
+    /// Correlations at the shift before, at the shift, and at the one after.
+    around: [Vec<f32>; 3],
+}
+
+impl Row {
+    pub fn new(width: usize) -> Self {
+        let room = vec![0.0; width + COLUMNS];
+        Self { columns: vec![0; width + 2 * COLUMNS], around: [room.clone(), room.clone(), room] }
+    }
+}
+
+/// Sums of eight neighbouring numbers, from each of the first eight on.
 #[inline(always)]
-fn column_products(a: &[i16], a_width: usize, b: &[i16], b_width: usize) -> [i32; COLUMNS] {
+fn sums_of_eight(numbers: &[i32]) -> [i32; COLUMNS] {
+    let numbers: &[i32; 2 * COLUMNS] = numbers.first_chunk().expect("two vectors");
     let mut sums = [0; COLUMNS];
-    for row in 0..=2 * RADIUS {
-        let a: &[i16; COLUMNS] = a[row * a_width..].first_chunk().expect("rows that lie in the image");
-        let b: &[i16; COLUMNS] = b[row * b_width..].first_chunk().expect("rows that lie in the image");
+    for step in 0..COLUMNS {
         for lane in 0..COLUMNS {
-            sums[lane] += i32::from(a[lane]) * i32::from(b[lane]);
+            sums[lane] += numbers[lane + step];
         }
     }
     sums
 }
 
-/// Sums of numbers `step` places apart. The last `step` results are void.
-fn add_shifted(sums: &mut [i32], numbers: &[i32], step: usize) {
-    for ((sum, a), b) in sums.iter_mut().zip(numbers).zip(&numbers[step..]) {
-        *sum = a + b;
-    }
-}
-
 /// Where between −1 and 1 three correlations have their peak. The pattern resembles its shifted self as a Gaussian
 /// does that has been lowered by [`TROUGH`]; a parabola through them would draw results to whole pixels, by up to
 /// half a step.
+#[inline(always)]
 fn peak(before: f32, best: f32, after: f32) -> f32 {
     let above_trough = |correlation: f32| (correlation + TROUGH * best).max(f32::EPSILON * best);
     let (before, best, after) = (above_trough(before), above_trough(best), above_trough(after));
@@ -189,6 +214,7 @@ fn peak(before: f32, best: f32, after: f32) -> f32 {
 }
 
 /// ln(a/b) by the first terms of 2·artanh((a−b)/(a+b)): within 0.02 up to a ratio of 5, and a fraction of `ln`'s time.
+#[inline(always)]
 fn ln_of_ratio(a: f32, b: f32) -> f32 {
     let y = (a - b) / (a + b);
     let square = y * y;

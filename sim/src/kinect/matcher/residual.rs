@@ -5,12 +5,12 @@
 pub(super) struct Residual {
     pub width: usize,
     pub height: usize,
-    /// Row after row, then [`PADDING`].
-    values: Vec<i16>,
+    /// All of the same known length, so that a window's rows are found without arithmetic; zeros after the image's own.
+    rows: Vec<[i16; STRIDE]>,
 }
 
-/// Zeros after the last row, so that whole vectors can be read from its last pixels.
-const PADDING: usize = 8;
+/// Room for the widest image, the reference, and for whole vectors to be read from its last pixels.
+pub(super) const STRIDE: usize = 816;
 /// Half the window of the local mean, pixels. Small, so that edges of shade spoil little; 5×5 positions of the pattern
 /// always hold a dot. Measured in an office's views: with 9×9 pixels two to three times as many matches are wrong.
 const RADIUS: usize = 2;
@@ -20,8 +20,11 @@ const AREA: u32 = (WINDOW * WINDOW) as u32;
 impl Residual {
     /// Each pixel of a 10-bit image less the mean of the window around it. Nearer to the border than the window
     /// reaches, 0.
+    ///
+    /// # Panics
+    /// When rows are longer than [`STRIDE`].
     pub fn of(pixels: &[u16], width: usize, height: usize) -> Self {
-        let mut values = vec![0; width * height + PADDING];
+        let mut rows = vec![[0; STRIDE]; height];
         let mut column_sums = vec![0_u16; width];
         for row in pixels.chunks_exact(width).take(WINDOW - 1) {
             for (sum, &pixel) in column_sums.iter_mut().zip(row) {
@@ -34,7 +37,7 @@ impl Residual {
                 *sum += pixel;
             }
             let inner = width - 2 * RADIUS;
-            let out = &mut values[middle * width + RADIUS..][..inner];
+            let out = &mut rows[middle][RADIUS..][..inner];
             let row = &pixels[middle * width + RADIUS..][..inner];
             for (x, (value, &pixel)) in out.iter_mut().zip(row).enumerate() {
                 let sum: u32 = column_sums[x..x + WINDOW].iter().map(|&sum| u32::from(sum)).sum();
@@ -45,16 +48,18 @@ impl Residual {
                 *sum -= pixel;
             }
         }
-        Self { width, height, values }
+        Self { width, height, rows }
     }
 
-    /// The pixels from one on, to the image's end and [`PADDING`] zeros further.
-    pub fn from(&self, x: usize, y: usize) -> &[i16] {
-        &self.values[y * self.width + x..]
+    /// Some rows of it, from `y` on.
+    #[inline(always)]
+    pub fn rows<const COUNT: usize>(&self, y: usize) -> &[[i16; STRIDE]; COUNT] {
+        self.rows[y..].first_chunk().expect("rows that lie in the image")
     }
 
+    #[inline(always)]
     pub fn row(&self, y: usize) -> &[i16] {
-        &self.values[y * self.width..(y + 1) * self.width]
+        &self.rows[y][..self.width]
     }
 }
 
@@ -65,7 +70,7 @@ mod tests {
     #[test]
     fn even_light_leaves_nothing_and_a_dot_stands_out() {
         let mut pixels = vec![500_u16; 30 * 20];
-        assert!(Residual::of(&pixels, 30, 20).values.iter().all(|&value| value == 0));
+        assert!(Residual::of(&pixels, 30, 20).rows.as_flattened().iter().all(|&value| value == 0));
         pixels[10 * 30 + 15] += 25;
         let residual = Residual::of(&pixels, 30, 20);
         assert_eq!(residual.row(10)[15], 24);

@@ -61,6 +61,7 @@ impl BitImage {
         Self { groups, words }
     }
 
+    #[inline(always)]
     fn at(&self, group: usize, y: usize) -> Lanes {
         self.words[y * self.groups + group]
     }
@@ -80,6 +81,7 @@ impl ReferenceBits {
 
     /// The best candidate of each pixel in rows `top..bottom`, or [`NO_MATCH`], to `found` (row after row). At most
     /// [`BAND`] rows, no nearer to the image's upper and lower border than a window reaches.
+    #[inline(always)]
     pub fn search(&self, live: &BitImage, top: usize, bottom: usize, width: usize, found: &mut [u8]) {
         for group in 0..live.groups {
             let mut band = [Best::default(); BAND];
@@ -121,13 +123,18 @@ impl Best {
     #[inline(always)]
     fn update(&mut self, candidate: usize, cost: [Lanes; 7]) {
         let hopeless = cost[5] | cost[6];
-        let cost = std::array::from_fn(|plane| cost[plane] | hopeless);
-        let better = less(cost, self.cost);
-        let loser = std::array::from_fn(|plane| better.choose(self.cost[plane], cost[plane]));
+        let (mut capped, mut loser) = (self.cost, self.cost);
+        for plane in 0..COST_PLANES {
+            capped[plane] = cost[plane] | hopeless;
+        }
+        let better = less(capped, self.cost);
+        for plane in 0..COST_PLANES {
+            loser[plane] = better.choose(self.cost[plane], capped[plane]);
+        }
         let next = less(loser, self.next_cost) & !self.beside_best;
         for plane in 0..COST_PLANES {
             self.next_cost[plane] = next.choose(loser[plane], self.next_cost[plane]);
-            self.cost[plane] = better.choose(cost[plane], self.cost[plane]);
+            self.cost[plane] = better.choose(capped[plane], self.cost[plane]);
         }
         for (place, plane) in self.disparity.iter_mut().enumerate() {
             *plane = better.choose(Lanes::all(candidate >> place & 1 == 1), *plane);
@@ -136,6 +143,7 @@ impl Best {
     }
 
     /// Where the best candidate leads the next by [`MARGIN`].
+    #[inline(always)]
     fn unique(&self) -> Lanes {
         let mut carry = Lanes::all(false);
         let mut needed = [Lanes::all(false); COST_PLANES];
@@ -145,6 +153,7 @@ impl Best {
         !carry & !less(self.next_cost, needed)
     }
 
+    #[inline(always)]
     fn write(&self, out: &mut [u8]) {
         let unique = self.unique();
         for (lane, pixels) in out.chunks_mut(USEFUL).enumerate() {
@@ -161,6 +170,7 @@ impl Best {
 }
 
 /// One candidate's costs down a band: the number of differing bits in a sliding window.
+#[inline(always)]
 fn search_candidate(
     live: &BitImage,
     reference: &BitImage,

@@ -95,12 +95,16 @@ fn sub_pixel_shifts_are_not_drawn_to_whole_pixels() {
         let infrared = bench.infrared(|_, _| z, DOT, AMBIENT, 0.0);
         let live = Live::of(Residual::of(infrared.pixels(), 640, 480));
         let (mut sum, mut count) = (0.0, 0.0);
+        let candidate = (5 + i16::from(eighths > 4) - NEAREST as i16) as u8;
+        let mut candidates = [NO_MATCH; 640];
+        candidates[RADIUS..632].fill(candidate);
+        let (mut row, mut shifts) = (Row::new(640), [NO_SHIFT; 640]);
         for y in 100..140 {
-            let candidate = (5 + i16::from(eighths > 4) - NEAREST as i16) as u8;
-            bench.matcher.reference.refine_row(&live, y, &[candidate; 640], |_, found| {
-                sum += STEPS_PER_PIXEL * (f64::from(found) - shift);
+            bench.matcher.reference.refine_row(&live, y, &candidates, &mut row, &mut shifts);
+            for found in shifts.iter().filter(|&&found| found != NO_SHIFT) {
+                sum += STEPS_PER_PIXEL * (f64::from(*found) - shift);
                 count += 1.0;
-            });
+            }
         }
         assert!((sum / count).abs() < 0.05, "{shift} px: {} steps", sum / count);
     }
@@ -128,6 +132,15 @@ fn noise_alone_and_even_light_have_no_depth() {
         let valid = depth.pixels().iter().filter(|&&raw| raw != NO_DEPTH).count();
         assert!(valid < 640 * 480 / 1000, "{valid} pixels with depth at {ambient} ± {noise}");
     }
+}
+
+#[test]
+fn every_processor_finds_the_same() {
+    let bench = Bench::new();
+    let steps =
+        |column: f64, row: f64| if (column / 50.0 + row / 70.0) as usize % 3 == 0 { 0.9 } else { 1.5 + row / 200.0 };
+    let infrared = bench.infrared(steps, DOT, AMBIENT, 80.0);
+    assert_eq!(bench.matcher.depth(&infrared), bench.matcher.depth_on(Arch::Scalar, &infrared));
 }
 
 #[test]
