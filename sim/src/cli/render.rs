@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use image::{GrayImage, ImageBuffer, Luma, RgbImage};
 use nalgebra::{Isometry3, Vector3};
-use sunblind_estimator::fusion::PlanarPose;
 use sunblind_estimator::guidance::PathPoint;
 use sunblind_estimator::image::Image;
 
@@ -17,8 +16,10 @@ use crate::kinect::calibration::Calibration;
 use crate::kinect::{FRAME_INTERVAL, Kinect};
 use crate::new_folder::{FolderError, Kind, NewFolder};
 use crate::render::{Adapter, RenderError, Sweep};
+use crate::robot::RobotModel;
 use crate::scenario::{AnyScenario, Fault, Scenario};
 use crate::world::World;
+use crate::world::ground::Ground;
 
 const HELP: &str = "\
 Examples:
@@ -86,7 +87,7 @@ impl Render {
             return Err(source.blame(Fault::new("world.name", problem)).into());
         };
         let path = scenario.path.shape().map_err(|fault| source.blame(fault))?;
-        let camera = scenario.robot_model().map_err(|fault| source.blame(fault))?.robot_from_camera;
+        let robot = scenario.robot_model().map_err(|fault| source.blame(fault))?;
         let end = path.length() / scenario.path.speed;
         if let Some(&at) = self.instants.iter().find(|at| **at > end) {
             return Err(Failure::BeyondPath { at, end });
@@ -94,7 +95,7 @@ impl Render {
         // Both before the light is computed, which takes a while.
         let folder = NewFolder::begin(&self.out, &PICTURES)?;
         Adapter::find()?;
-        let mut view = View::new(&scenario, &stage::lit_world(&scenario), camera)?;
+        let mut view = View::new(&scenario, &stage::lit_world(&scenario), &robot)?;
         let mut rows = Vec::new();
         for &at in &self.instants {
             let seen = view.at(at, &path.at(at * scenario.path.speed))?;
@@ -119,6 +120,9 @@ struct View<'a> {
     scenario: &'a Scenario,
     kinect: Kinect,
     robot_from_infrared: Isometry3<f64>,
+    ground: Ground,
+    /// From the robot's middle to its axles, metres.
+    reach: f64,
 }
 
 /// What it sees at one instant.
@@ -132,11 +136,12 @@ struct Seen {
 }
 
 impl<'a> View<'a> {
-    fn new(scenario: &'a Scenario, world: &World, robot_from_camera: Isometry3<f64>) -> Result<Self, RenderError> {
+    fn new(scenario: &'a Scenario, world: &World, robot: &RobotModel) -> Result<Self, RenderError> {
         let calibration = Calibration::nominal();
-        let robot_from_infrared = robot_from_camera * calibration.colour_from_infrared;
+        let robot_from_infrared = robot.robot_from_camera * calibration.colour_from_infrared;
         let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
-        Ok(Self { scenario, kinect, robot_from_infrared })
+        let (ground, reach) = (world.ground.clone(), robot.wheelbase() / 2.0);
+        Ok(Self { scenario, kinect, robot_from_infrared, ground, reach })
     }
 
     /// `at`: seconds after the start.
@@ -163,7 +168,7 @@ impl<'a> View<'a> {
     /// The motion of the infrared camera during a frame interval in whose middle the robot is at `place`, driving along
     /// the path.
     fn sweep(&self, place: &PathPoint) -> Sweep {
-        let world_from_robot = PlanarPose::new(place.position.x, place.position.y, place.heading).to_isometry();
+        let world_from_robot = self.ground.standing(place.position.x, place.position.y, place.heading, self.reach);
         let speed = self.scenario.path.speed;
         let moved = |seconds: f64| {
             let turned = speed * place.curvature * seconds;
