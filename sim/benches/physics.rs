@@ -2,9 +2,9 @@
 
 use cpu_time::ThreadTime;
 use nalgebra::Isometry3;
-use sunblind_sim::physics::{Floor, STEP, Simulation};
+use sunblind_sim::physics::{Floor, FloorPlan, STEP, Simulation};
 use sunblind_sim::robot::{CameraMount, InertialNoise, RobotModel, VelocityCommand};
-use sunblind_sim::world::{Mesh, Object, World};
+use sunblind_sim::world::{Mesh, Object, World, yard};
 
 const SECONDS: f64 = 60.0;
 
@@ -18,12 +18,15 @@ fn crate_at(x: f32, y: f32) -> Object {
     Object { name: format!("crate at {x}, {y}"), mesh, material: 0, collides: true }
 }
 
-fn simulated_seconds_per_cpu_second(objects: Vec<Object>, floor: Floor) -> f64 {
-    let world = World { name: "bench".into(), objects, materials: Vec::new(), lamps: Vec::new() };
+fn simulated_seconds_per_cpu_second(world: &World, floors: FloorPlan) -> f64 {
     let mut robot = RobotModel::p3at(&CameraMount::default());
     robot.gyro = Some(InertialNoise::pioneer_gyro());
-    let mut simulation =
-        Simulation::new(&world, &robot, floor.into(), &Isometry3::identity(), 1).expect("a sound world");
+    // On a lawn where there is one; the robot drives to and fro in an S.
+    let start = match world.ground.terrain {
+        Some(_) => world.ground.standing(8.6, 14.0, 0.0, robot.wheelbase() / 2.0),
+        None => Isometry3::identity(),
+    };
+    let mut simulation = Simulation::new(world, &robot, floors, &start, 1).expect("a sound world");
     let start = ThreadTime::now();
     for step in 0..(SECONDS / STEP) as usize {
         let turn_rate = 0.6 * (step as f64 * 2e-3).sin();
@@ -42,7 +45,11 @@ fn main() {
         ("bare tile", Vec::new(), Floor::TILE),
         ("tile, 196 crates", crates, Floor::TILE),
     ] {
-        let speed = simulated_seconds_per_cpu_second(objects, floor);
+        let world = World { name: "bench".into(), objects, ..World::default() };
+        let speed = simulated_seconds_per_cpu_second(&world, floor.into());
         println!("{name:<20} {speed:7.1} simulated seconds a CPU second");
     }
+    let yard = yard::yard(1);
+    let speed = simulated_seconds_per_cpu_second(&yard, FloorPlan::from(&yard.ground));
+    println!("{:<20} {speed:7.1} simulated seconds a CPU second", "the yard's lawn");
 }

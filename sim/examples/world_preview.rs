@@ -1,7 +1,7 @@
-//! Pictures of the laboratory without a graphics adapter: ten places along its loop in visible light and at 830 nm, and
-//! the plan from above.
+//! Pictures of a world without a graphics adapter: ten places along its loop in visible light and at 830 nm, and the
+//! plan from above. A world under the open sky gets an even, overcast one.
 //!
-//! `cargo run --release --example world_preview -- OUT_FOLDER`
+//! `cargo run --release --example world_preview -- OUT_FOLDER [laboratory|yard] [RAYS_PER_VERTEX]`
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -10,10 +10,11 @@ use glam::{DVec3, Vec3, Vec4};
 use image::{Rgb, RgbImage, imageops};
 use rayon::prelude::*;
 use sunblind_sim::world::bake::{Effort, bake_cached};
-use sunblind_sim::world::laboratory::{laboratory, loop_waypoints};
+use sunblind_sim::world::laboratory;
 use sunblind_sim::world::material::substance::{encoded, linear};
 use sunblind_sim::world::rays::Rays;
-use sunblind_sim::world::{Brightness, TEXTURE_SIZE, World};
+use sunblind_sim::world::yard;
+use sunblind_sim::world::{Brightness, Lamp, LightSource, TEXTURE_SIZE, World};
 
 /// A Kinect's picture at half resolution: width, height, focal length, pixels.
 const VIEW: (u32, u32, f64) = (320, 240, 262.5);
@@ -25,7 +26,15 @@ const LENS: f64 = 0.60;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "out/preview".into()));
     let start = Instant::now();
-    let mut world = laboratory(1);
+    let name = std::env::args().nth(2).unwrap_or_else(|| "laboratory".into());
+    let rays_per_vertex = std::env::args().nth(3).map_or(Ok(256), |rays| rays.parse())?;
+    let (mut world, points, [west, south, east, north, top]) = match name.as_str() {
+        "yard" => (yard::yard(1), yard::loop_waypoints(), [-1.0, -1.0, 26.0, 20.5, 12.0]),
+        _ => (laboratory::laboratory(1), laboratory::loop_waypoints(), [0.0, 0.0, 12.0, 9.0, 2.25]),
+    };
+    if world.ground.terrain.is_some() {
+        world.lamps.extend(overcast_sky());
+    }
     let triangles: usize = world.objects.iter().map(|object| object.mesh.triangles.len()).sum();
     let vertices: usize = world.objects.iter().map(|object| object.mesh.positions.len()).sum();
     println!(
@@ -34,12 +43,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         start.elapsed()
     );
     let start = Instant::now();
-    let origin = bake_cached(&mut world, &Effort::default(), Brightness::FULL, &folder.join("cache"), &|_| ())?;
+    let origin = bake_cached(
+        &mut world,
+        &Effort { rays: rays_per_vertex, ..Effort::default() },
+        Brightness::FULL,
+        &folder.join("cache"),
+        &|_| (),
+    )?;
     println!("light: {origin:?} in {:.1?}", start.elapsed());
 
     let rays = Rays::new(&world.objects).ok_or("an empty world")?;
     let radiosity = |origin: DVec3, direction: DVec3| look(&world, &rays, origin, direction);
-    let points: Vec<DVec3> = loop_waypoints().into_iter().map(|[x, y]| DVec3::new(x, y, LENS)).collect();
+    let lens = |[x, y]: [f64; 2]| DVec3::new(x, y, world.ground.height(x, y) + LENS);
+    let points: Vec<DVec3> = points.into_iter().map(lens).collect();
     let (width, height, focal) = VIEW;
     let mut sheets = [(); 2].map(|()| RgbImage::new(2 * width, 5 * height));
     for place in 0..10 {
@@ -55,8 +71,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             imageops::replace(sheet, &picture, corner.0.into(), corner.1.into());
         }
     }
-    let (width, height) = (1080, 810);
-    let plan = render(width, height, |x, y| radiosity(DVec3::new(x / 90.0, 9.0 - y / 90.0, 2.25), -DVec3::Z));
+    let per_pixel = (east - west) / 1080.0;
+    let (width, height) = (1080, ((north - south) / per_pixel) as u32);
+    let plan = render(width, height, |x, y| {
+        radiosity(DVec3::new(west + per_pixel * x, north - per_pixel * y, top), -DVec3::Z)
+    });
     let [plan, _] = developed(&plan, width, height);
     let [visible, infrared] = sheets;
     for (name, picture) in [("visible", visible), ("infrared", infrared), ("plan", plan)] {
@@ -65,6 +84,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{}", path.display());
     }
     Ok(())
+}
+
+/// Panels high above: some 8 klx on what lies open; 830 nm: 0.007 W m⁻² nm⁻¹ per klx.
+fn overcast_sky() -> Vec<Lamp> {
+    let panel = |index: u8| Lamp {
+        name: format!("sky {index}"),
+        centre: [12.0 + 24.0 * (f32::from(index % 3) - 1.0), 10.0 + 24.0 * (f32::from(index / 3) - 1.0), 16.0],
+        half_edges: [[0.0, 12.0, 0.0], [12.0, 0.0, 0.0]],
+        exitance: [9000.0, 9000.0, 9600.0, 0.063],
+        source: LightSource::Daylight,
+    };
+    (0..9).map(panel).collect()
 }
 
 /// Mean radiosity over each pixel, all four channels.
@@ -84,7 +115,7 @@ fn render(width: u32, height: u32, look: impl Fn(f64, f64) -> Vec4 + Sync) -> Ve
 
 /// What the first surface on a ray sheds: irradiance × albedo.
 fn look(world: &World, rays: &Rays, origin: DVec3, direction: DVec3) -> Vec4 {
-    let Some(hit) = rays.first(origin, direction, f64::MAX) else { return Vec4::ZERO };
+    let Some(hit) = rays.first(origin, direction, f64::MAX) else { return Vec4::new(2500.0, 2700.0, 3000.0, 0.018) };
     let source = rays.source(&hit);
     let object = &world.objects[source.object];
     let corners = object.mesh.triangles[source.triangle];

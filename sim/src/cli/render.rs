@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use image::{GrayImage, ImageBuffer, Luma, RgbImage};
 use nalgebra::{Isometry3, Vector3};
-use sunblind_estimator::fusion::PlanarPose;
 use sunblind_estimator::guidance::{self, PathPoint};
 use sunblind_estimator::image::Image;
 
@@ -17,8 +16,10 @@ use crate::kinect::calibration::Calibration;
 use crate::kinect::{FRAME_INTERVAL, Kinect};
 use crate::new_folder::{FolderError, Kind, NewFolder};
 use crate::render::{Adapter, RenderError, Sweep};
+use crate::robot::RobotModel;
 use crate::scenario::{AnyScenario, Fault, Scenario};
 use crate::world::World;
+use crate::world::ground::Ground;
 
 const HELP: &str = "\
 Examples:
@@ -92,7 +93,7 @@ struct Shot {
     name: String,
     scenario: Box<Scenario>,
     path: guidance::Path,
-    robot_from_camera: Isometry3<f64>,
+    robot: RobotModel,
 }
 
 impl Render {
@@ -109,7 +110,7 @@ impl Render {
         Adapter::find()?;
         let mut rows = Vec::new();
         for shot in &shots {
-            let mut view = View::new(&shot.scenario, &stage::lit_world(&shot.scenario), shot.robot_from_camera)?;
+            let mut view = View::new(&shot.scenario, &stage::lit_world(&shot.scenario), &shot.robot)?;
             for &at in &self.instants {
                 let seen = view.at(at, &shot.path.at(at * shot.scenario.path.speed))?;
                 let mut row = seen.into_row();
@@ -137,13 +138,13 @@ impl Render {
             return Err(source.blame(Fault::new("world.name", problem)).into());
         };
         let path = scenario.path.shape().map_err(|fault| source.blame(fault))?;
-        let robot_from_camera = scenario.robot_model().map_err(|fault| source.blame(fault))?.robot_from_camera;
+        let robot = scenario.robot_model().map_err(|fault| source.blame(fault))?;
         let end = path.length() / scenario.path.speed;
         if let Some(&at) = self.instants.iter().find(|at| **at > end) {
             return Err(Failure::BeyondPath { at, end });
         }
         let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        Ok(Shot { name, scenario, path, robot_from_camera })
+        Ok(Shot { name, scenario, path, robot })
     }
 
     fn unwritable(&self, source: io::Error) -> FolderError {
@@ -156,6 +157,9 @@ struct View<'a> {
     scenario: &'a Scenario,
     kinect: Kinect,
     robot_from_infrared: Isometry3<f64>,
+    ground: Ground,
+    /// From the robot's middle to its axles, metres.
+    reach: f64,
 }
 
 /// What it sees at one instant.
@@ -169,11 +173,12 @@ struct Seen {
 }
 
 impl<'a> View<'a> {
-    fn new(scenario: &'a Scenario, world: &World, robot_from_camera: Isometry3<f64>) -> Result<Self, RenderError> {
+    fn new(scenario: &'a Scenario, world: &World, robot: &RobotModel) -> Result<Self, RenderError> {
         let calibration = Calibration::nominal();
-        let robot_from_infrared = robot_from_camera * calibration.colour_from_infrared;
+        let robot_from_infrared = robot.robot_from_camera * calibration.colour_from_infrared;
         let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
-        Ok(Self { scenario, kinect, robot_from_infrared })
+        let (ground, reach) = (world.ground.clone(), robot.wheelbase() / 2.0);
+        Ok(Self { scenario, kinect, robot_from_infrared, ground, reach })
     }
 
     /// `at`: seconds after the start.
@@ -200,7 +205,7 @@ impl<'a> View<'a> {
     /// The motion of the infrared camera during a frame interval in whose middle the robot is at `place`, driving along
     /// the path.
     fn sweep(&self, place: &PathPoint) -> Sweep {
-        let world_from_robot = PlanarPose::new(place.position.x, place.position.y, place.heading).to_isometry();
+        let world_from_robot = self.ground.standing(place.position.x, place.position.y, place.heading, self.reach);
         let speed = self.scenario.path.speed;
         let moved = |seconds: f64| {
             let turned = speed * place.curvature * seconds;

@@ -2,6 +2,7 @@
 
 use super::unevenness::Unevenness;
 use crate::robot::RobotModel;
+use crate::world::ground::{Cover, CoveredArea, Ground};
 
 /// How one spot of ground holds a tyre. Without unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +69,25 @@ impl Floor {
         variation: GripVariation { anisotropy: 0.16, slip: 0.006, correlation_length: 0.6 },
     };
 
+    /// Asphalt, some years old: rougher than concrete, without its joints. Friction: hand-books, 0.7–0.9.
+    pub const ASPHALT: Self = Self {
+        grip: Grip { anisotropy: -0.05, slip: 0.004, friction: 0.8 },
+        variation: GripVariation { anisotropy: 0.14, slip: 0.006, correlation_length: 0.8 },
+    };
+
+    /// A mown lawn, dry. Friction: hand-books, 0.5–0.6. A driven wheel shears the turf and over-spins by 6 or 7 %; users
+    /// report dead reckoning to be two or three times as wrong as on a hard floor.
+    pub const GRASS: Self = Self {
+        grip: Grip { anisotropy: -0.4, slip: 0.04, friction: 0.5 },
+        variation: GripVariation { anisotropy: 0.05, slip: 0.012, correlation_length: 0.7 },
+    };
+
+    /// Loose gravel. Friction: hand-books, 0.3–0.4 on loose ground. It gives way even more than turf.
+    pub const GRAVEL: Self = Self {
+        grip: Grip { anisotropy: -0.45, slip: 0.045, friction: 0.4 },
+        variation: GripVariation { anisotropy: 0.05, slip: 0.015, correlation_length: 0.5 },
+    };
+
     /// How much wider apart two wheels would have to stand to turn the robot as its four do, on average over this
     /// floor: the closed form of the module's head.
     pub fn effective_track_ratio(&self, robot: &RobotModel) -> f64 {
@@ -98,6 +118,27 @@ pub struct FloorPlan {
     pub elsewhere: Floor,
     /// The last one that covers a place counts, as with carpets.
     pub areas: Vec<FloorArea>,
+}
+
+impl From<Cover> for Floor {
+    fn from(cover: Cover) -> Self {
+        match cover {
+            Cover::Tile => Self::TILE,
+            Cover::Carpet => Self::CARPET,
+            Cover::Concrete => Self::CONCRETE,
+            Cover::Asphalt => Self::ASPHALT,
+            Cover::Grass => Self::GRASS,
+            Cover::Gravel => Self::GRAVEL,
+        }
+    }
+}
+
+impl From<&Ground> for FloorPlan {
+    /// As the world has it.
+    fn from(ground: &Ground) -> Self {
+        let area = |area: &CoveredArea| FloorArea { min: area.min, max: area.max, floor: area.cover.into() };
+        Self { elsewhere: ground.elsewhere.into(), areas: ground.areas.iter().map(area).collect() }
+    }
 }
 
 impl From<Floor> for FloorPlan {

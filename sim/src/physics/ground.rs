@@ -1,8 +1,11 @@
-//! The world as the engine feels it: a level plane, the ground that rises from it, and things to bump into.
+//! The world as the engine feels it: terrain or a level plane, the ground that rises from it, and things to bump into.
+
+use std::f64::consts::FRAC_PI_2;
 
 use rapier3d::prelude::*;
 use thiserror::Error;
 
+use crate::world::ground::Terrain;
 use crate::world::{Mesh, World};
 
 /// Who touches whom. Tyres stand on the ground as balls (a ball rolls without a tremble where a cylinder's edge
@@ -30,8 +33,10 @@ pub(super) mod groups {
 /// Faces less steep than this are ground: cos 45°. The robot climbs 19° (data sheet), so nothing steeper than this is
 /// driven on; a guess.
 const GROUND_NORMAL_Z: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Ground no higher than this above the plane is the plane, metres: mesh vertices are f32.
+/// Ground no higher than this above the plane or the terrain is it, metres: mesh vertices are f32.
 const LEVEL: f64 = 1e-3;
+/// How far the plane lies below the lowest ground of a world with terrain, metres.
+const BELOW_TERRAIN: f64 = 10.0;
 /// The plane's half edge, metres. Larger than any world.
 const FAR: f64 = 1e5;
 /// Obstacles against the robot's body; a guess. Tyres on the ground get theirs from the floor.
@@ -72,7 +77,8 @@ type Triangle = [Vector; 3];
 /// has 0.
 ///
 /// The level floor is an exact plane and not its triangles, because a wheel that crosses a seam between two meshes
-/// stumbles. It lies at z = 0, or lower where the world's own ground goes lower.
+/// stumbles. It lies at z = 0, or lower where the world's own ground goes lower. Terrain is one height field for the same
+/// reason.
 pub(super) fn build(world: &World, physics: &mut PhysicsWorld) -> Result<(), WorldError> {
     let mut ground = Vec::new();
     let mut obstacles = Vec::new();
@@ -81,11 +87,21 @@ pub(super) fn build(world: &World, physics: &mut PhysicsWorld) -> Result<(), Wor
         ground.extend(level);
         obstacles.push((index, steep));
     }
-    let plane_height = ground.iter().flatten().map(|vertex| vertex.z).fold(0.0, f64::min);
-    ground.retain(|triangle| triangle.iter().any(|vertex| vertex.z > plane_height + LEVEL));
+    let terrain = world.ground.terrain.as_ref();
+    let lowest = ground.iter().flatten().map(|vertex| vertex.z).fold(0.0, f64::min);
+    // Below terrain it only catches what falls off: ground in two places at once would hold a tyre twice.
+    let plane_height = lowest - if terrain.is_some() { BELOW_TERRAIN } else { 0.0 };
+    let base = |vertex: &Vector| match terrain {
+        Some(_) => world.ground.height(vertex.x, vertex.y),
+        None => plane_height,
+    };
+    ground.retain(|triangle| triangle.iter().any(|vertex| vertex.z > base(vertex) + LEVEL));
 
     let plane = ColliderBuilder::cuboid(FAR, FAR, 1.0).translation(Vector::new(0.0, 0.0, plane_height - 1.0));
     insert(physics, plane, groups::GROUND_TOUCHES, 0);
+    if let Some(terrain) = terrain {
+        insert(physics, height_field(terrain), groups::GROUND_TOUCHES, 0);
+    }
     if let Some(mesh) = trimesh("ground", &ground, TriMeshFlags::FIX_INTERNAL_EDGES)? {
         insert(physics, mesh, groups::GROUND_TOUCHES, 0);
     }
@@ -118,6 +134,21 @@ fn triangles(object: &str, mesh: &Mesh) -> Result<Vec<Triangle>, WorldError> {
             _ => Err(WorldError::NoSuchVertex { object: object.into(), triangle }),
         })
         .collect()
+}
+
+fn height_field(terrain: &Terrain) -> ColliderBuilder {
+    let (columns, rows) = (terrain.columns, terrain.rows());
+    // The engine's height fields have y up, rows along z and the middle at the origin. Turned z up, rows lead south.
+    let by_column = (0..columns).flat_map(|column| (0..rows).rev().map(move |row| row * columns + column));
+    let heights = Array2::new(rows, columns, by_column.map(|index| terrain.heights[index]).collect());
+    let size = [columns, rows].map(|points| terrain.pitch * (points - 1) as f64);
+    ColliderBuilder::heightfield_with_flags(
+        heights,
+        Vector::new(size[0], 1.0, size[1]),
+        HeightFieldFlags::FIX_INTERNAL_EDGES,
+    )
+    .translation(Vector::new(terrain.min[0] + size[0] / 2.0, terrain.min[1] + size[1] / 2.0, 0.0))
+    .rotation(Vector::X * FRAC_PI_2)
 }
 
 fn is_ground([a, b, c]: &Triangle) -> bool {

@@ -8,8 +8,10 @@ use crate::kinect::Imaging;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
 use crate::world::bake::{Effort, bake_cached, cache_folder};
+use crate::world::ground::Ground;
 use crate::world::laboratory::laboratory;
 use crate::world::rays::Rays;
+use crate::world::yard::yard;
 use crate::world::{Brightness, Object, World};
 
 /// A world is the same in each run: a scenario's seed moves noise and slip, not furniture.
@@ -20,6 +22,7 @@ impl WorldName {
     pub fn build(self) -> World {
         match self {
             Self::Laboratory => laboratory(WORLD_SEED),
+            Self::Yard => yard(WORLD_SEED),
         }
     }
 }
@@ -30,17 +33,25 @@ impl From<Floor> for physics::Floor {
             Floor::Tile => Self::TILE,
             Floor::Carpet => Self::CARPET,
             Floor::Concrete => Self::CONCRETE,
+            Floor::Asphalt => Self::ASPHALT,
+            Floor::Grass => Self::GRASS,
+            Floor::Gravel => Self::GRAVEL,
             Floor::Ideal => Self::IDEAL,
         }
     }
 }
 
 impl Robot {
-    /// Which floor lies where.
-    pub fn floor_plan(&self) -> FloorPlan {
+    /// Which floor lies where in a world with this ground.
+    pub fn floor_plan(&self, ground: &Ground) -> FloorPlan {
         let area =
             |area: &super::FloorArea| physics::FloorArea { min: area.min, max: area.max, floor: area.floor.into() };
-        FloorPlan { elsewhere: self.floor.into(), areas: self.floor_areas.iter().map(area).collect() }
+        let mut plan = match self.floor {
+            Some(floor) => FloorPlan::from(physics::Floor::from(floor)),
+            None => FloorPlan::from(ground),
+        };
+        plan.areas.extend(self.floor_areas.iter().map(area));
+        plan
     }
 }
 
@@ -91,6 +102,7 @@ impl Scenario {
 pub struct Obstacles {
     /// `None` in an empty world.
     rays: Option<Rays>,
+    ground: Ground,
 }
 
 /// The robot in a ball about its middle, metres above the floor: a P3-AT is 0.5 m wide, the Kinect 0.65 m high.
@@ -104,7 +116,7 @@ impl Obstacles {
     /// Everything in a world that a robot bumps into.
     pub fn of(world: &World) -> Self {
         let objects = world.objects.iter().filter(|Object { collides, .. }| *collides);
-        Self { rays: Rays::new(objects) }
+        Self { rays: Rays::new(objects), ground: world.ground.clone() }
     }
 
     /// Whether the robot fits through from one point to another.
@@ -113,7 +125,7 @@ impl Obstacles {
         let steps = ((to - from).norm() / PROBE).ceil().max(1.0) as usize;
         (0..=steps).all(|step| {
             let at = from + (to - from) * (step as f64 / steps as f64);
-            rays.distance(DVec3::new(at.x, at.y, BALL_HEIGHT)) > BALL_RADIUS
+            rays.distance(DVec3::new(at.x, at.y, self.ground.height(at.x, at.y) + BALL_HEIGHT)) > BALL_RADIUS
         })
     }
 }
@@ -159,7 +171,7 @@ mod tests {
              start_m = [4.0, 1.0]\nradius_m = 0.5\n[kinect]\nlens_height_m = 0.9\n[robot]\nfloor = \"concrete\"\n\
              gyro = true\nfloor_areas = [{ floor = \"carpet\", min_m = [1, 1], max_m = [2, 2] }]\n",
         );
-        let plan = scenario.robot.floor_plan();
+        let plan = scenario.robot.floor_plan(&Ground::default());
         assert_eq!(plan.floor_at(1.5, 1.5), &physics::Floor::CARPET);
         assert_eq!(plan.floor_at(0.0, 0.0), &physics::Floor::CONCRETE);
         let model = scenario.robot_model().unwrap();

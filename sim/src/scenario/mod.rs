@@ -82,6 +82,8 @@ pub struct World {
 pub enum WorldName {
     /// A tiled laboratory room, a carpeted office and a corridor, 12 × 9 m.
     Laboratory,
+    /// A yard between houses, 25 × 20 m: asphalt, slabs, lawn and gravel, not quite level.
+    Yard,
 }
 
 /// What shines. The same for the whole run.
@@ -106,9 +108,9 @@ impl Default for Light {
 pub struct Robot {
     /// A robot description to use instead of the built-in Pioneer P3-AT; relative to the scenario's file.
     pub urdf: Option<PathBuf>,
-    /// The floor wherever no area is.
-    pub floor: Floor,
-    /// Other floors; where two overlap, the later one counts.
+    /// One floor everywhere, instead of what lies in the world.
+    pub floor: Option<Floor>,
+    /// Other floors, upon `floor` or the world's own; where two overlap, the later one counts.
     pub floor_areas: Vec<FloorArea>,
     /// Whether a gyro is fitted.
     pub gyro: bool,
@@ -120,16 +122,21 @@ pub struct Robot {
 }
 
 /// A kind of floor.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Floor {
     /// Ceramic tile.
-    #[default]
     Tile,
     /// Short-pile carpet.
     Carpet,
     /// Bare concrete.
     Concrete,
+    /// Asphalt, some years old.
+    Asphalt,
+    /// A mown lawn, dry.
+    Grass,
+    /// Loose gravel.
+    Gravel,
     /// Even everywhere; tyres slip only as far as turning makes them.
     Ideal,
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use nalgebra::{Isometry3, Vector3};
 use rand_chacha::rand_core::Rng;
-use sunblind_estimator::fusion::Drive;
+use sunblind_estimator::fusion::{Drive, PlanarPose};
 use sunblind_estimator::{Measurement, MeasurementData, Timestamp};
 use thiserror::Error;
 
@@ -79,8 +79,10 @@ impl Simulator {
     /// See [`SimulatorError`].
     pub fn new(scenario: &Scenario, world: &World) -> Result<Self, SimulatorError> {
         let robot = scenario.robot_model().map_err(SimulatorError::Scenario)?;
-        let start = scenario.start().map_err(SimulatorError::Scenario)?.to_isometry();
-        let physics = Simulation::new(world, &robot, scenario.robot.floor_plan(), &start, scenario.seed)?;
+        let PlanarPose { x, y, heading } = scenario.start().map_err(SimulatorError::Scenario)?;
+        let start = world.ground.standing(x, y, heading, robot.wheelbase() / 2.0);
+        let floors = scenario.robot.floor_plan(&world.ground);
+        let physics = Simulation::new(world, &robot, floors, &start, scenario.seed)?;
         let unit = kinect::calibration::Calibration::nominal();
         let robot_from_infrared = robot.robot_from_camera * unit.colour_from_infrared;
         let mut rig = unit.rig(robot.robot_from_camera);

@@ -4,6 +4,7 @@
 //! (W m⁻² nm⁻¹).
 
 pub mod bake;
+pub mod ground;
 pub mod laboratory;
 pub mod material;
 pub mod plan;
@@ -11,12 +12,15 @@ pub mod rays;
 pub mod refine;
 mod scene;
 pub mod shape;
+pub mod yard;
+
+use ground::Ground;
 
 /// Edge of every texture, texels.
 pub const TEXTURE_SIZE: usize = 512;
 
 /// A place, ready to be rendered and collided with. Nothing in it moves.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct World {
     /// For readers.
     pub name: String,
@@ -26,6 +30,8 @@ pub struct World {
     pub materials: Vec<Material>,
     /// What shines. Nobody sees a lamp itself: where one is in view, an object is its cover.
     pub lamps: Vec<Lamp>,
+    /// What one drives on.
+    pub ground: Ground,
 }
 
 /// A thing of one material. Large ones are cut up (a room's wall, not the building's), so that a view can leave out

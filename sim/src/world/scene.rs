@@ -1,12 +1,16 @@
 //! Puts a world together, piece by piece.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{Vec3, vec3};
 
+use super::ground::Ground;
 use super::material::{self, Surface};
-use super::shape::{Mapping, Place};
+use super::shape::{Mapping, Place, cuts_no_longer_than};
 use super::{Lamp, Mesh, Object, World};
+
+/// How long an edge of a coarse box may be, metres.
+const COARSE: f32 = 1.0;
 
 /// A world under construction.
 #[derive(Default)]
@@ -47,9 +51,22 @@ impl Scene {
         self.lamps.push(lamp);
     }
 
-    /// What has been built, with materials painted from `seed`.
-    pub fn finish(self, name: &str, seed: u64) -> World {
-        World { name: name.to_owned(), objects: self.objects, materials: material::materials(seed), lamps: self.lamps }
+    /// What has been built, with materials painted from `seed`: those that are used, for each takes its time and its
+    /// memory.
+    pub fn finish(mut self, name: &str, seed: u64) -> World {
+        let used: BTreeSet<usize> = self.objects.iter().map(|object| object.material).collect();
+        let used: Vec<usize> = used.into_iter().collect();
+        for object in &mut self.objects {
+            object.material = used.binary_search(&object.material).expect("it was found in this very list");
+        }
+        let surfaces: Vec<Surface> = used.into_iter().map(|index| Surface::ALL[index]).collect();
+        World {
+            name: name.to_owned(),
+            objects: self.objects,
+            materials: material::materials(&surfaces, seed),
+            lamps: self.lamps,
+            ground: Ground::default(),
+        }
     }
 }
 
@@ -73,6 +90,31 @@ impl Piece {
     /// An upright box between two corners.
     pub fn cuboid(&mut self, surface: Surface, min: [f32; 3], max: [f32; 3]) {
         self.mesh(surface, &Mesh::cuboid(min.into(), max.into(), self.mapping(surface)));
+    }
+
+    /// An upright box without its bottom, cut no finer than it must be: for what is large, or small and many. What
+    /// shades it is seen at its corners only.
+    pub fn block(&mut self, surface: Surface, min: [f32; 3], max: [f32; 3]) {
+        let ([min, max], mapping) = ([min, max].map(Vec3::from), self.mapping(surface));
+        let size = max - min;
+        let (x, y, z) = (Vec3::X * size.x, Vec3::Y * size.y, Vec3::Z * size.z);
+        for (corner, right, down) in [
+            (min + z, x, -z),      // south
+            (max, -x, -z),         // north
+            (min + x + z, y, -z),  // east
+            (min + y + z, -y, -z), // west
+            (min + y + z, x, -y),  // up
+        ] {
+            let [columns, rows] = [right, down].map(|edge| cuts_no_longer_than(COARSE, &[0.0, edge.length()]));
+            self.mesh(surface, &Mesh::grid(corner, right, down, [&columns, &rows], |_, _| false, mapping));
+        }
+    }
+
+    /// A round bar of many metres, without flat ends, cut no finer than it must be.
+    pub fn tube(&mut self, surface: Surface, from: [f32; 3], to: [f32; 3], radii: [f32; 2]) {
+        let sides = if radii[0].max(radii[1]) < 0.08 { 6 } else { 9 };
+        let mapping = self.mapping(surface);
+        self.mesh(surface, &Mesh::tube(from.into(), to.into(), radii, sides, mapping));
     }
 
     /// A round bar.

@@ -34,6 +34,13 @@ impl Mapping {
     }
 }
 
+impl Mapping {
+    /// The texture coordinates of the point `along` metres from where the texture begins; of a surface without edges.
+    pub fn uv_at(self, along: [f32; 2]) -> [f32; 2] {
+        self.uv(along, [1.0; 2])
+    }
+}
+
 /// Where a thing stands: its own frame's origin and heading in the world's.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
@@ -65,7 +72,8 @@ pub fn even_cuts(cuts: &[f32]) -> Vec<f32> {
     cuts_no_longer_than(STEP, cuts)
 }
 
-fn cuts_no_longer_than(longest: f32, cuts: &[f32]) -> Vec<f32> {
+/// The cuts given, ascending, and evenly between them as many as leave no more than `longest` metres.
+pub fn cuts_no_longer_than(longest: f32, cuts: &[f32]) -> Vec<f32> {
     let mut all = vec![cuts[0]];
     for pair in cuts.windows(2) {
         let steps = ((pair[1] - pair[0]) / longest - 1e-3).ceil().max(1.0);
@@ -134,35 +142,15 @@ impl Mesh {
 
     /// A round bar with flat ends; the radii may differ, as a bin's do.
     pub fn cylinder(from: Vec3, to: Vec3, radii: [f32; 2], sides: u32, mapping: Mapping) -> Self {
-        let axis = to - from;
-        let (along, length) = (axis.normalize(), axis.length());
-        let (across, beside) = along.any_orthonormal_pair();
-        let out = |side: u32| {
-            let (sin, cos) = (side as f32 / sides as f32 * std::f32::consts::TAU).sin_cos();
-            cos * across + sin * beside
-        };
         let round = std::f32::consts::TAU * radii[0].max(radii[1]);
-        let mut mesh = Self::default();
-        let heights = cuts_no_longer_than(if round < THIN { 4.0 * STEP } else { STEP }, &[0.0, length]);
-        for side in 0..=sides {
-            let normal = (out(side) + along * (radii[0] - radii[1]) / length).normalize().to_array();
-            let u = side as f32 / sides as f32 * round;
-            for &height in &heights {
-                let radius = radii[0] + (radii[1] - radii[0]) * height / length;
-                mesh.positions.push((from + height * along + radius * out(side)).to_array());
-                mesh.normals.push(normal);
-                mesh.uvs.push(mapping.uv([u, length - height], [round, length]));
-            }
-        }
-        let rings = heights.len() as u32;
-        for (side, ring) in (0..sides).flat_map(|side| (0..rings - 1).map(move |ring| (side, ring))) {
-            let (here, next) = (side * rings + ring, (side + 1) * rings + ring);
-            mesh.triangles.extend([[here, next, next + 1], [here, next + 1, here + 1]]);
-        }
+        let mut mesh = Self::sleeve(from, to, radii, sides, if round < THIN { 4.0 * STEP } else { STEP }, mapping);
+        let along = (to - from).normalize();
+        let (across, beside) = along.any_orthonormal_pair();
         for (end, radius, facing) in [(from, radii[0], -along), (to, radii[1], along)] {
             let first = mesh.positions.len() as u32;
             for side in 0..sides {
-                let flat = radius * out(side);
+                let (sin, cos) = (side as f32 / sides as f32 * std::f32::consts::TAU).sin_cos();
+                let flat = radius * (cos * across + sin * beside);
                 mesh.positions.push((end + flat).to_array());
                 mesh.normals.push(facing.to_array());
                 let uv = [radius + flat.dot(across), radius + flat.dot(beside)];
@@ -172,6 +160,38 @@ impl Mesh {
                 let turn = if facing == along { [side, side + 1] } else { [side + 1, side] };
                 mesh.triangles.push([first, first + turn[0], first + turn[1]]);
             }
+        }
+        mesh
+    }
+
+    /// A round bar without flat ends, cut only every two metres: of what is long and thin, or far off.
+    pub fn tube(from: Vec3, to: Vec3, radii: [f32; 2], sides: u32, mapping: Mapping) -> Self {
+        Self::sleeve(from, to, radii, sides, 2.0, mapping)
+    }
+
+    fn sleeve(from: Vec3, to: Vec3, radii: [f32; 2], sides: u32, step: f32, mapping: Mapping) -> Self {
+        let axis = to - from;
+        let (along, length) = (axis.normalize(), axis.length());
+        let (across, beside) = along.any_orthonormal_pair();
+        let round = std::f32::consts::TAU * radii[0].max(radii[1]);
+        let heights = cuts_no_longer_than(step, &[0.0, length]);
+        let mut mesh = Self::default();
+        for side in 0..=sides {
+            let (sin, cos) = (side as f32 / sides as f32 * std::f32::consts::TAU).sin_cos();
+            let out = cos * across + sin * beside;
+            let normal = (out + along * (radii[0] - radii[1]) / length).normalize().to_array();
+            let u = side as f32 / sides as f32 * round;
+            for &height in &heights {
+                let radius = radii[0] + (radii[1] - radii[0]) * height / length;
+                mesh.positions.push((from + height * along + radius * out).to_array());
+                mesh.normals.push(normal);
+                mesh.uvs.push(mapping.uv([u, length - height], [round, length]));
+            }
+        }
+        let rings = heights.len() as u32;
+        for (side, ring) in (0..sides).flat_map(|side| (0..rings - 1).map(move |ring| (side, ring))) {
+            let (here, next) = (side * rings + ring, (side + 1) * rings + ring);
+            mesh.triangles.extend([[here, next, next + 1], [here, next + 1, here + 1]]);
         }
         mesh
     }

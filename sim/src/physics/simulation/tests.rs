@@ -1,3 +1,5 @@
+mod terrain;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Isometry2, Translation3, UnitQuaternion, Vector2};
@@ -18,7 +20,7 @@ fn place(x: f64, y: f64, heading: f64) -> Isometry3<f64> {
 }
 
 fn world(objects: Vec<Object>) -> World {
-    World { name: "test".into(), objects, materials: Vec::new(), lamps: Vec::new() }
+    World { name: "test".into(), objects, ..World::default() }
 }
 
 fn on(floors: impl Into<FloorPlan>) -> Simulation {
@@ -122,7 +124,7 @@ fn hard_floors_widen_the_track_as_the_real_robots_do() {
 
 #[test]
 fn slip_costs_the_speed_it_should() {
-    for floor in [Floor::TILE, Floor::CARPET, Floor::CONCRETE] {
+    for floor in [Floor::TILE, Floor::CARPET, Floor::CONCRETE, Floor::ASPHALT, Floor::GRASS, Floor::GRAVEL] {
         let even = Floor { variation: Floor::IDEAL.variation, ..floor };
         let mut simulation = on(even);
         drive(&mut simulation, 0.5, 0.0, 10.0);
@@ -340,11 +342,20 @@ fn odometry_drift(floor: Floor, seed: u64) -> f64 {
 
 #[test]
 fn dead_reckoning_drifts_as_users_report() {
-    for (name, floor) in [("tile", Floor::TILE), ("carpet", Floor::CARPET), ("concrete", Floor::CONCRETE)] {
+    // Users' reports: 1–2 % of the distance and 5–15 % of the angle on hard floors, 3–5 % and as much on soft ground.
+    let (hard, soft) = (0.02..0.10, 0.04..0.15);
+    for (name, floor, expected) in [
+        ("tile", Floor::TILE, &hard),
+        ("carpet", Floor::CARPET, &hard),
+        ("concrete", Floor::CONCRETE, &hard),
+        ("asphalt", Floor::ASPHALT, &hard),
+        ("grass", Floor::GRASS, &soft),
+        ("gravel", Floor::GRAVEL, &soft),
+    ] {
         let drifts: Vec<f64> = (0..8_u64).into_par_iter().map(|seed| odometry_drift(floor, seed)).collect();
         let rms = (drifts.iter().map(|drift| drift * drift).sum::<f64>() / drifts.len() as f64).sqrt();
         println!("{name}: drift {:.2} % rms, {:.4?}", rms * 1e2, drifts);
-        assert!((0.02..0.10).contains(&rms), "{name}: {rms}");
+        assert!(expected.contains(&rms), "{name}: {rms}");
     }
     let ideal = odometry_drift(Floor::IDEAL, 0);
     println!("ideal: {:.3} %", ideal * 1e2);

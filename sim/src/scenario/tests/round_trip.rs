@@ -56,13 +56,13 @@ fn path() -> impl Strategy<Value = PathSpec> {
 }
 
 fn robot() -> impl Strategy<Value = Robot> {
-    let floor = prop_oneof![Just(Floor::Tile), Just(Floor::Carpet), Just(Floor::Concrete), Just(Floor::Ideal)];
+    let floor = prop_oneof![Just(Floor::Tile), Just(Floor::Carpet), Just(Floor::Asphalt), Just(Floor::Ideal)];
     let area = (floor.clone(), point(), prop::array::uniform2(0.1..50.0)).prop_map(|(floor, min, size)| FloorArea {
         floor,
         min,
         max: [min[0] + size[0], min[1] + size[1]],
     });
-    (floor, prop::collection::vec(area, 0..3), any::<bool>(), option::of(point()), heading()).prop_map(
+    (option::of(floor), prop::collection::vec(area, 0..3), any::<bool>(), option::of(point()), heading()).prop_map(
         |(floor, floor_areas, gyro, start, start_heading_deg)| Robot {
             urdf: None,
             floor,

@@ -32,7 +32,13 @@ fn room(level: u8) -> World {
         exitance: [1000.0, 500.0, 250.0, 2.0],
         source: LightSource::Electric,
     };
-    World { name: "room".into(), objects: vec![object("walls", mesh)], materials: vec![grey(level)], lamps: vec![lamp] }
+    World {
+        name: "room".into(),
+        objects: vec![object("walls", mesh)],
+        materials: vec![grey(level)],
+        lamps: vec![lamp],
+        ..World::default()
+    }
 }
 
 /// ∫ irradiance dA by channel.

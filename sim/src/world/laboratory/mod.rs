@@ -24,6 +24,7 @@ mod things;
 use glam::{Vec2, vec2};
 
 use super::World;
+use super::ground::{Cover, CoveredArea, Ground};
 use super::rays::Rays;
 use super::refine::refine;
 use super::scene::Scene;
@@ -69,6 +70,9 @@ pub fn laboratory(seed: u64) -> World {
     building::outlook(&mut scene, "outlook east", [17.0, 14.0], [17.0, -5.0]);
     let mut world = scene.finish("laboratory", seed);
     tessellate(&mut world);
+    let office =
+        CoveredArea { min: [BETWEEN, ROOMS].map(f64::from), max: [EAST, NORTH].map(f64::from), cover: Cover::Carpet };
+    world.ground = Ground { elsewhere: Cover::Tile, areas: vec![office], terrain: None };
     world
 }
 

@@ -79,3 +79,34 @@ pub const RED_COAT: Substance = [0.50, 0.025, 0.02, 0.62];
 pub const BLUE_PLASTIC: Substance = [0.03, 0.09, 0.33, 0.50];
 /// Overcast sky as a painted backdrop: 830 nm falls a little less on it than on the sky's lux. Guess.
 pub const SKY: Substance = [0.76, 0.84, 0.94, 0.80];
+
+// Outdoors.
+
+/// Asphalt, some years old. Measured: 0.15, 0.13, 0.11 → 0.16 (SLUM); 0.09, 0.07, 0.05 → 0.11 (ECOSTRESS); between.
+pub const ASPHALT: Substance = [0.125, 0.113, 0.094, 0.150];
+/// Concrete. Measured: 0.32, 0.28, 0.22 → 0.34, 0.36, 0.33, 0.26 → 0.37; a little soiled.
+pub const CONCRETE: Substance = [0.29, 0.26, 0.21, 0.33];
+/// A lawn. Measured: 0.05 at 650 nm, 0.11, 0.04 → 0.49; red as a camera sees it reaches down to 580 nm, where grass is
+/// brighter (a guess).
+pub const GRASS: Substance = [0.063, 0.11, 0.041, 0.49];
+/// Conifer's needles. Measured: 0.05, 0.11, 0.05 → 0.51; a dark kind.
+pub const NEEDLES: Substance = [0.035, 0.075, 0.036, 0.45];
+/// Bark. Guess: as dark untreated wood; tannins vanish in part.
+pub const BARK: Substance = [0.16, 0.12, 0.085, 0.33];
+/// Pebbles. Measured granite: 0.41, 0.39, 0.34 → 0.43; limestone: 0.41, 0.36, 0.26 → 0.45.
+pub const PEBBLE: Substance = [0.41, 0.37, 0.30, 0.44];
+/// Natural stone of a wall. Measured limestone: 0.41, 0.36, 0.26 → 0.45; weathered.
+pub const STONE: Substance = [0.34, 0.30, 0.225, 0.38];
+/// Brick. Measured: 0.31, 0.24, 0.17 → 0.35, range 0.10–0.63; a red one.
+pub const BRICK: Substance = [0.31, 0.15, 0.10, 0.36];
+/// Roof tiles. Measured: 0.17, 0.10, 0.08 → 0.22.
+pub const ROOF_TILE: Substance = [0.17, 0.10, 0.08, 0.22];
+/// Lime plaster, painted ochre (iron oxide). Guess: white paint below 600 nm less the oxide, which is clear at 830 nm but
+/// for its band at 870.
+pub const OCHRE_PLASTER: Substance = [0.60, 0.46, 0.27, 0.60];
+/// Untreated wood, weathered grey. Guess: as untreated wood (0.50, 0.40, 0.25 → 0.60–0.75), darkened.
+pub const WEATHERED_WOOD: Substance = [0.27, 0.225, 0.175, 0.46];
+/// Cast iron, worn and rusty. Guess: near measured galvanised steel (0.08, 0.04, 0.02 → 0.08).
+pub const IRON: Substance = [0.085, 0.075, 0.066, 0.105];
+/// A window pane before a dark room; it mirrors some sky, which a matt surface can only hint at. Literature: 0.08 specular.
+pub const PANE: Substance = [0.05, 0.06, 0.072, 0.055];
