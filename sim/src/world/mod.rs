@@ -4,6 +4,7 @@
 //! (W m⁻² nm⁻¹).
 
 pub mod bake;
+pub mod gltf;
 pub mod ground;
 pub mod laboratory;
 pub mod material;
