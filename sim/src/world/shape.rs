@@ -7,8 +7,8 @@ use super::Mesh;
 /// Faces are cut at least this often along each edge, metres, so that light kept at vertices shows shadows. Cutting
 /// long strips crosswise here also spares bisection the slivers it is bad at.
 const STEP: f32 = 0.3;
-/// Round bars of less girth, metres, are cut a quarter as often: no shadow shows on a pipe.
-const THIN: f32 = 0.16;
+/// Bars of less girth, metres, are cut a quarter as often: no shadow shows on a pipe or a table's leg.
+const THIN: f32 = 0.25;
 
 /// How a texture lies on a face.
 #[derive(Clone, Copy, Debug)]
@@ -60,12 +60,13 @@ impl Place {
     }
 }
 
-/// The cuts given, ascending, and evenly between them as many as keep to [`STEP`].
-pub fn even_cuts(cuts: &[f32]) -> Vec<f32> {
-    cuts_no_longer_than(STEP, cuts)
+/// How long a bar of some girth (metres) may stay uncut.
+fn longest_cut(girth: f32) -> f32 {
+    if girth < THIN { 4.0 * STEP } else { STEP }
 }
 
-fn cuts_no_longer_than(longest: f32, cuts: &[f32]) -> Vec<f32> {
+/// The cuts given, ascending, and evenly between them as many as leave no more than `longest` metres.
+pub fn cuts_no_longer_than(longest: f32, cuts: &[f32]) -> Vec<f32> {
     let mut all = vec![cuts[0]];
     for pair in cuts.windows(2) {
         let steps = ((pair[1] - pair[0]) / longest - 1e-3).ceil().max(1.0);
@@ -79,7 +80,11 @@ impl Mesh {
     /// A rectangle with its top left `corner`, its upper edge `right` and its left edge `down`, as seen from the side it
     /// faces.
     pub fn quad(corner: Vec3, right: Vec3, down: Vec3, mapping: Mapping) -> Self {
-        let [columns, rows] = [right, down].map(|edge| even_cuts(&[0.0, edge.length()]));
+        Self::quad_cut(STEP, corner, right, down, mapping)
+    }
+
+    fn quad_cut(longest: f32, corner: Vec3, right: Vec3, down: Vec3, mapping: Mapping) -> Self {
+        let [columns, rows] = [right, down].map(|edge| cuts_no_longer_than(longest, &[0.0, edge.length()]));
         Self::grid(corner, right, down, [&columns, &rows], |_, _| false, mapping)
     }
 
@@ -118,6 +123,7 @@ impl Mesh {
     pub fn cuboid(min: Vec3, max: Vec3, mapping: Mapping) -> Self {
         let size = max - min;
         let (x, y, z) = (Vec3::X * size.x, Vec3::Y * size.y, Vec3::Z * size.z);
+        let longest = longest_cut(2.0 * (size.element_sum() - size.max_element()));
         let mut mesh = Self::default();
         for (corner, right, down) in [
             (min + z, x, -z),      // south
@@ -127,7 +133,7 @@ impl Mesh {
             (min + y + z, x, -y),  // up
             (min, x, y),           // down
         ] {
-            mesh.append(&Self::quad(corner, right, down, mapping));
+            mesh.append(&Self::quad_cut(longest, corner, right, down, mapping));
         }
         mesh
     }
@@ -143,7 +149,7 @@ impl Mesh {
         };
         let round = std::f32::consts::TAU * radii[0].max(radii[1]);
         let mut mesh = Self::default();
-        let heights = cuts_no_longer_than(if round < THIN { 4.0 * STEP } else { STEP }, &[0.0, length]);
+        let heights = cuts_no_longer_than(longest_cut(round), &[0.0, length]);
         for side in 0..=sides {
             let normal = (out(side) + along * (radii[0] - radii[1]) / length).normalize().to_array();
             let u = side as f32 / sides as f32 * round;
