@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use comfy_table::{CellAlignment, Table, presets};
-use sunblind_estimator::EstimatorParams;
 use sunblind_estimator::params::Variant;
+use sunblind_estimator::{EstimatorParams, Timestamp};
 
 use super::{Failure, answer, overrides, replay::progress_bar};
 use crate::evaluation::{Step, frame_steps};
-use crate::record::Recording;
+use crate::record::{FrameFiles, Recording};
 use crate::runner::log::{FrameCounts, RunLog};
 use crate::runner::{Driven, ReplayOptions, replay};
 use crate::scenario::Override;
@@ -17,11 +17,12 @@ use crate::scenario::Override;
 const HELP: &str = "\
 Examples:
   sunblind difficulty recordings/kitchen
-  sunblind difficulty recordings/kitchen out/lab_loop
-      how a simulated recording compares with a real one
+  sunblind difficulty recordings/kitchen out/lab_loop --max-rate-hz 15 --set paper.max_depth_m=8
+      how a simulated recording compares with a real one of twice its frame rate, all of a Kinect's range counted
 
-Each frame is held against the one before it (variant = \"paper\"), with the estimator that `sunblind replay` runs. The table
-shows medians over the frames: the motion from frame to frame and what it is estimated wrong by, both by the truth (which
+Each frame is held against the one before it (variant = \"paper\"), with the estimator that `sunblind replay` runs. Recordings
+of different frame rates are compared with --max-rate-hz: from frame to frame, half as many a second differ twice as
+much. Keypoints count only where there is depth up to paper.max_depth_m, 2.4 m unless it is set. The table shows medians over the frames: the motion from frame to frame and what it is estimated wrong by, both by the truth (which
 the estimator never sees) and a dash without it; SURF keypoints, matches, matches that agree on one motion (inliers); and
 the depth pixels without a value. RMSE is over all frames: what the median leaves out. From the second recording on there
 is a column with its ratio to the first.";
@@ -33,6 +34,9 @@ pub(super) struct Difficulty {
     /// The recordings' folders (TUM RGB-D layout)
     #[arg(required = true, value_name = "RECORDING")]
     recordings: Vec<PathBuf>,
+    /// Leave frames out, so that no more than these are left of a second
+    #[arg(long, value_name = "HZ", value_parser = rate, allow_negative_numbers = true)]
+    max_rate_hz: Option<f64>,
     /// Change a parameter of the estimator; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<Override>,
@@ -43,7 +47,10 @@ impl Difficulty {
         let params = EstimatorParams { variant: Variant::Paper, ..overrides::params(&self.overrides)? };
         let mut measured = Vec::new();
         for folder in &self.recordings {
-            let recording = Recording::open(folder, None)?;
+            let mut recording = Recording::open(folder, None)?;
+            if let Some(rate) = self.max_rate_hz {
+                recording.frames = no_faster_than(rate, recording.frames);
+            }
             // Wheels have no part in it.
             let rig = sunblind_estimator::Rig { drive: None, ..recording.rig.clone() };
             let driven = Driven::product("mvo", "frame to frame", params.clone(), rig)?;
@@ -56,6 +63,24 @@ impl Difficulty {
         answer(&table(&measured));
         Ok(())
     }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
+    value.ok_or_else(|| "write a number of frames a second, more than 0".to_owned())
+}
+
+/// Every frame that comes no sooner after the last one taken than `rate` (Hz) allows, within a tenth.
+fn no_faster_than(rate: f64, frames: Vec<FrameFiles>) -> Vec<FrameFiles> {
+    let mut last: Option<Timestamp> = None;
+    let mut taken = |frame: &FrameFiles| {
+        let due = last.is_none_or(|last| frame.rgb.time.since(last) * rate > 0.9);
+        if due {
+            last = Some(frame.rgb.time);
+        }
+        due
+    };
+    frames.into_iter().filter(|frame| taken(frame)).collect()
 }
 
 /// What is measured, and the digits after the point that it is shown with.
@@ -138,12 +163,28 @@ fn number(value: f64, digits: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::ImageFile;
 
     #[test]
     fn the_median_leaves_outliers_out() {
         assert_eq!(median(vec![3.0, 900.0, 1.0, 2.0, 4.0]), 3.0);
         assert!(median(vec![]).is_nan() && root_mean_square(&[]).is_nan());
         assert_eq!(root_mean_square(&[3.0, 4.0, 0.0, 0.0]), 2.5);
+    }
+
+    #[test]
+    fn half_of_thirty_frames_a_second_are_fifteen() {
+        let image = |ns| ImageFile { time: Timestamp::from_nanos(ns), path: "image.png".into() };
+        let at_30_hz = |index: i64| {
+            let ns = 33_333_333 * index;
+            FrameFiles { rgb: image(ns), depth: image(ns) }
+        };
+        let frames: Vec<FrameFiles> = (0..30).map(at_30_hz).collect();
+        let left = |rate| no_faster_than(rate, frames.clone());
+        assert!(left(15.0) == frames.iter().step_by(2).cloned().collect::<Vec<_>>());
+        assert!(left(30.0) == frames && left(1000.0) == frames);
+        assert_eq!(left(20.0).len(), 15, "every frame is too soon, every other one is not");
+        assert!(rate("0").is_err() && rate("-15").is_err() && rate("fast").is_err() && rate("15") == Ok(15.0));
     }
 
     #[test]

@@ -7,8 +7,8 @@ use super::Mesh;
 /// Faces are cut at least this often along each edge, metres, so that light kept at vertices shows shadows. Cutting
 /// long strips crosswise here also spares bisection the slivers it is bad at.
 const STEP: f32 = 0.3;
-/// Round bars of less girth, metres, are cut a quarter as often: no shadow shows on a pipe.
-const THIN: f32 = 0.16;
+/// Bars of less girth, metres, are cut a quarter as often: no shadow shows on a pipe or a table's leg.
+const THIN: f32 = 0.25;
 
 /// How a texture lies on a face.
 #[derive(Clone, Copy, Debug)]
@@ -67,9 +67,9 @@ impl Place {
     }
 }
 
-/// The cuts given, ascending, and evenly between them as many as keep to [`STEP`].
-pub fn even_cuts(cuts: &[f32]) -> Vec<f32> {
-    cuts_no_longer_than(STEP, cuts)
+/// How long a bar of some girth (metres) may stay uncut.
+fn longest_cut(girth: f32) -> f32 {
+    if girth < THIN { 4.0 * STEP } else { STEP }
 }
 
 /// The cuts given, ascending, and evenly between them as many as leave no more than `longest` metres.
@@ -87,7 +87,11 @@ impl Mesh {
     /// A rectangle with its top left `corner`, its upper edge `right` and its left edge `down`, as seen from the side it
     /// faces.
     pub fn quad(corner: Vec3, right: Vec3, down: Vec3, mapping: Mapping) -> Self {
-        let [columns, rows] = [right, down].map(|edge| even_cuts(&[0.0, edge.length()]));
+        Self::quad_cut(STEP, corner, right, down, mapping)
+    }
+
+    fn quad_cut(longest: f32, corner: Vec3, right: Vec3, down: Vec3, mapping: Mapping) -> Self {
+        let [columns, rows] = [right, down].map(|edge| cuts_no_longer_than(longest, &[0.0, edge.length()]));
         Self::grid(corner, right, down, [&columns, &rows], |_, _| false, mapping)
     }
 
@@ -126,6 +130,7 @@ impl Mesh {
     pub fn cuboid(min: Vec3, max: Vec3, mapping: Mapping) -> Self {
         let size = max - min;
         let (x, y, z) = (Vec3::X * size.x, Vec3::Y * size.y, Vec3::Z * size.z);
+        let longest = longest_cut(2.0 * (size.element_sum() - size.max_element()));
         let mut mesh = Self::default();
         for (corner, right, down) in [
             (min + z, x, -z),      // south
@@ -135,7 +140,7 @@ impl Mesh {
             (min + y + z, x, -y),  // up
             (min, x, y),           // down
         ] {
-            mesh.append(&Self::quad(corner, right, down, mapping));
+            mesh.append(&Self::quad_cut(longest, corner, right, down, mapping));
         }
         mesh
     }
@@ -143,7 +148,7 @@ impl Mesh {
     /// A round bar with flat ends; the radii may differ, as a bin's do.
     pub fn cylinder(from: Vec3, to: Vec3, radii: [f32; 2], sides: u32, mapping: Mapping) -> Self {
         let round = std::f32::consts::TAU * radii[0].max(radii[1]);
-        let mut mesh = Self::sleeve(from, to, radii, sides, if round < THIN { 4.0 * STEP } else { STEP }, mapping);
+        let mut mesh = Self::sleeve(from, to, radii, sides, longest_cut(round), mapping);
         let along = (to - from).normalize();
         let (across, beside) = along.any_orthonormal_pair();
         for (end, radius, facing) in [(from, radii[0], -along), (to, radii[1], along)] {

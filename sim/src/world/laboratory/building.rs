@@ -5,16 +5,26 @@ use glam::{Vec2, Vec3, vec2, vec3};
 use super::CEILING;
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Piece, Scene};
-use crate::world::shape::{Place, even_cuts};
+use crate::world::shape::{Place, cuts_no_longer_than};
 use crate::world::{Lamp, LightSource, Mesh};
 
-/// Exitance of a ceiling panel's cover, lux. A LED panel of 0.72 m² and some 5200 lm. 830 nm: none, it is a white LED.
-const PANEL: [f32; 4] = [7400.0, 7200.0, 6900.0, 0.0];
-/// Exitance of a window in daylight, lux: an overcast day, sky and park seen through clear glass. 830 nm: 0.007
-/// W m⁻² nm⁻¹ per klx, overcast (estimate).
-const DAYLIGHT: [f32; 4] = [2850.0, 3000.0, 3200.0, 0.021];
-/// The same on what stands outside, lux: brighter than what of it comes through a window, as its albedo is about 0.4.
-const OUTDOORS: [f32; 4] = [8200.0, 8600.0, 9200.0, 0.06];
+/// Exitance of a ceiling panel's cover, lux. A LED panel of 0.72 m² and some 5700 lm. 830 nm: none, it is a white LED.
+const PANEL: [f32; 4] = [8200.0, 8000.0, 7650.0, 0.0];
+/// Exitance of a window in daylight, lux: an overcast day, sky and park seen through double glazing. 830 nm: 0.007
+/// W m⁻² nm⁻¹ per klx, overcast (estimate); a low-emissivity coating lets about half as much of it through as of
+/// visible light (remembered: 0.3 to 0.6 against 0.8).
+const DAYLIGHT: [f32; 4] = [2850.0, 3000.0, 3200.0, 0.0105];
+/// The same on what stands outside, as seen through the glass: brighter than what of it comes through a window, as its
+/// albedo is about 0.4.
+const OUTDOORS: [f32; 4] = [8200.0, 8600.0, 9200.0, 0.03];
+/// How far down roller blinds are drawn, as they are over screens: share of the window's height. A guess.
+const DRAWN: f32 = 0.6;
+/// Light that a blind lets through: a glare-control fabric, a twentieth of it holes. Data sheets: 0.04 to 0.08.
+const FABRIC: f32 = 0.06;
+
+/// How finely walls are cut, and ceilings, which no lamp shines on: metres. Shadows on them are soft.
+const WALL_STEP: f32 = 0.4;
+const CEILING_STEP: f32 = 0.6;
 
 /// A hole in a wall: along it, and above the floor, metres.
 #[derive(Clone, Copy)]
@@ -53,7 +63,7 @@ impl Wall {
             let mut cuts = [vec![0.0, end], inner].concat();
             cuts.sort_by(f32::total_cmp);
             cuts.dedup();
-            even_cuts(&cuts)
+            cuts_no_longer_than(WALL_STEP, &cuts)
         };
         let columns = cuts(self.length(), openings.iter().flat_map(|opening| opening.along).collect());
         let rows = cuts(CEILING, openings.iter().flat_map(|opening| opening.height.map(|z| CEILING - z)).collect());
@@ -110,15 +120,44 @@ pub(super) fn window(scene: &mut Scene, wall: &Wall, opening: &Opening) {
         piece.cuboid(Surface::Enamel, [left - 0.03, -0.1, bottom - 0.03], [right + 0.03, -0.0, bottom]);
         piece.bar(Surface::DarkCoat, [middle, near - 0.03, bottom + 0.45], [middle, near - 0.03, bottom + 0.57], 0.01);
     });
+    let hem = top - DRAWN * (top - bottom);
+    blind(scene, wall, [left, right], [hem, top]);
+    // Before the bars: what they shade is little, and their own shadows would want more rays.
+    daylight(scene, wall, "daylight", [left, right], [bottom, hem], cheeks - 0.07, DAYLIGHT);
+    daylight(scene, wall, "blind", [left, right], [hem, top], BLIND - 0.006, DAYLIGHT.map(|light| FABRIC * light));
+}
+
+/// How deep in a window's cheeks its blind hangs, metres.
+const BLIND: f32 = 0.05;
+
+/// A roller blind, drawn down to a hem.
+fn blind(scene: &mut Scene, wall: &Wall, [left, right]: [f32; 2], [hem, top]: [f32; 2]) {
+    scene.piece(&format!("{}, blind at {left}", wall.name), Kind::Decor, wall.place(), |piece| {
+        piece.front(Surface::Blind, [left + 0.02, right - 0.02], [hem, top - 0.07], BLIND);
+        piece.cuboid(Surface::Enamel, [left, BLIND - 0.04, top - 0.08], [right, BLIND + 0.04, top]);
+        piece.bar(Surface::Steel, [left + 0.02, BLIND, hem], [right - 0.02, BLIND, hem], 0.012);
+        piece.bar(Surface::Enamel, [right - 0.04, BLIND - 0.03, hem - 0.3], [right - 0.04, BLIND - 0.03, top], 0.004);
+    });
+}
+
+/// Light that comes through an upright rectangle in a wall.
+fn daylight(
+    scene: &mut Scene,
+    wall: &Wall,
+    name: &str,
+    [left, right]: [f32; 2],
+    [bottom, top]: [f32; 2],
+    depth: f32,
+    exitance: [f32; 4],
+) {
     let place = wall.place();
     let along = place.point(vec3(0.5 * (right - left), 0.0, 0.0)) - place.at;
-    // Before the bars: what they shade is little, and their own shadows would want more rays.
-    let centre = place.point(vec3(0.5 * (left + right), cheeks - 0.07, 0.5 * (bottom + top)));
+    let centre = place.point(vec3(0.5 * (left + right), depth, 0.5 * (bottom + top)));
     scene.lamp(Lamp {
-        name: format!("{}, daylight at {left}", wall.name),
+        name: format!("{}, {name} at {left}", wall.name),
         centre: centre.to_array(),
         half_edges: [along.to_array(), [0.0, 0.0, 0.5 * (top - bottom)]],
-        exitance: DAYLIGHT,
+        exitance,
         source: LightSource::Daylight,
     });
 }
@@ -153,7 +192,9 @@ pub(super) fn slab(scene: &mut Scene, name: &str, surface: Surface, min: [f32; 2
     let (right, depth) = (vec3(max[0] - min[0], 0.0, 0.0), vec3(0.0, max[1] - min[1], 0.0));
     // Tiles run on from slab to slab.
     let mesh = if z > 0.0 {
-        Mesh::quad(vec3(min[0], min[1], z), right, depth, surface.mapping_from(min))
+        let [columns, rows] = [right, depth].map(|edge| cuts_no_longer_than(CEILING_STEP, &[0.0, edge.length()]));
+        let corner = vec3(min[0], min[1], z);
+        Mesh::grid(corner, right, depth, [&columns, &rows], |_, _| false, surface.mapping_from(min))
     } else {
         Mesh::quad(vec3(min[0], max[1], z), right, -depth, surface.mapping_from([min[0], -max[1]]))
     };
@@ -203,8 +244,8 @@ pub(super) fn open_leaf(scene: &mut Scene, wall: &Wall, [left, right]: [f32; 2])
 
 /// A picture on a wall, its lower left corner at `at` metres along and above the floor.
 pub(super) fn picture(scene: &mut Scene, wall: &Wall, surface: Surface, at: [f32; 2], size: [f32; 2]) {
-    scene.piece(&format!("{}, {surface:?}", wall.name), Kind::Decor, wall.place(), |piece| {
-        let [left, bottom] = at;
+    let [left, bottom] = at;
+    scene.piece(&format!("{}, picture at {left}", wall.name), Kind::Decor, wall.place(), |piece| {
         piece.front(surface, [left, left + size[0]], [bottom, bottom + size[1]], -0.006);
     });
 }

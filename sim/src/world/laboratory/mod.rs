@@ -15,19 +15,22 @@
 
 mod building;
 mod corridor;
+mod fittings;
 mod furniture;
+mod hidden;
 mod instruments;
 mod laboratory_room;
 mod office;
+mod storage;
 mod things;
 
 use glam::{Vec2, vec2};
 
-use super::World;
 use super::ground::{Cover, CoveredArea, Ground};
 use super::rays::Rays;
 use super::refine::refine;
 use super::scene::Scene;
+use super::{Object, World};
 
 /// Height of rooms, metres.
 const CEILING: f32 = 2.7;
@@ -57,7 +60,7 @@ const INNER_DOOR: [f32; 2] = [5.0, 6.2];
 
 /// Longest edge of a triangle on floors where something stands, and on worktops, metres: shadows' edges are about as
 /// soft as that. Elsewhere the shapes' own cuts do.
-const EDGE_AT_CONTACTS: f32 = 0.17;
+const EDGE_AT_CONTACTS: f32 = 0.2;
 const EDGE_ON_WORKTOPS: f32 = 0.3;
 
 /// Builds the laboratory; `seed` decides on textures and on what fills the shelves. Light is yet to be baked.
@@ -73,6 +76,7 @@ pub fn laboratory(seed: u64) -> World {
     let office =
         CoveredArea { min: [BETWEEN, ROOMS].map(f64::from), max: [EAST, NORTH].map(f64::from), cover: Cover::Carpet };
     world.ground = Ground { elsewhere: Cover::Tile, areas: vec![office], terrain: None };
+    hidden::remove(&mut world);
     world
 }
 
@@ -81,11 +85,13 @@ fn tessellate(world: &mut World) {
     let is_floor = |name: &str| name.starts_with("floor");
     let is_worktop =
         |name: &str| ["Resin", "desk, Walnut", "desk, Oak", "table, Walnut"].iter().any(|end| name.ends_with(end));
-    let standing = Rays::new(world.objects.iter().filter(|object| !is_floor(&object.name)));
+    // Not what is stuck to it.
+    let stands = |object: &&Object| !is_floor(&object.name) && object.mesh.bounds()[1].z > EDGE_AT_CONTACTS;
+    let standing = Rays::new(world.objects.iter().filter(stands));
     for object in &mut world.objects {
         match &standing {
             Some(standing) if is_floor(&object.name) => {
-                refine(&mut object.mesh, |at| EDGE_AT_CONTACTS + 2.0 * standing.distance(at.as_dvec3()) as f32);
+                refine(&mut object.mesh, |at| EDGE_AT_CONTACTS + 2.5 * standing.distance(at.as_dvec3()) as f32);
             }
             _ if is_worktop(&object.name) => refine(&mut object.mesh, |_| EDGE_ON_WORKTOPS),
             _ => (),

@@ -1,7 +1,9 @@
 //! The office: desks, screens between them, books, a round table; carpeted.
 
 use super::building::{Opening, Wall, door_frame, open_leaf, panel, picture, slab, window};
+use super::fittings::{computer, flip_chart, low_sockets, trunking};
 use super::furniture::{DESK, cabinet, partition, plain_chair, radiator, round_table, shelf, workplace};
+use super::storage::{pallet, worktop_things};
 use super::things::{bin, carton, papers, plant};
 use super::{BETWEEN, CEILING, CHEEK, DOOR, EAST, INNER_DOOR, NORTH, OFFICE, OFFICE_DOOR, ROOMS};
 use crate::world::material::Surface;
@@ -25,6 +27,8 @@ fn shell(scene: &mut Scene) {
     east.build(scene, &[opening]);
     window(scene, &east, &opening);
     picture(scene, &east, Surface::ArtPrint, [5.3, 1.0], [0.9, 0.9]);
+    picture(scene, &east, Surface::Noticeboard, [0.3, 0.9], [1.5, 1.0]);
+    trunking(scene, &east, [2.4, 6.2], 0.79);
 
     let south = Wall { name: "office, south wall", from: [EAST, ROOMS], to: [OFFICE, ROOMS] };
     let corridor_door = [EAST - OFFICE_DOOR[1], EAST - OFFICE_DOOR[0]];
@@ -39,6 +43,10 @@ fn shell(scene: &mut Scene) {
     picture(scene, &west, Surface::RobotPoster, [4.15, 0.45], [0.84, 1.19]);
     picture(scene, &west, Surface::SafetyPoster, [2.05, 0.7], [0.5, 0.7]);
     picture(scene, &west, Surface::Clock, [3.2, 2.25], [0.3, 0.3]);
+    picture(scene, &west, Surface::Notice, [2.5, 1.5], [0.21, 0.3]);
+    picture(scene, &west, Surface::Flyer, [5.1, 1.2], [0.21, 0.3]);
+    low_sockets(scene, &west, 4.2);
+    picture(scene, &south, Surface::PeriodicTable, [0.2, 1.0], [1.2, 0.86]);
 
     slab(scene, "floor, office south", Surface::Carpet, [OFFICE, ROOMS], [EAST, 5.6], 0.0);
     slab(scene, "floor, office north", Surface::Carpet, [OFFICE, 5.6], [EAST, NORTH], 0.0);
@@ -85,6 +93,11 @@ fn furnish(scene: &mut Scene, seed: u64) {
     carton(scene, "office shelf, carton", Kind::Decor, Place::new(10.5, 6.6, 1.2, 12.0), [0.4, 0.28, 0.26]);
     carton(scene, "office shelf, second carton", Kind::Decor, Place::new(9.8, 6.62, 1.2, -8.0), [0.3, 0.24, 0.2]);
 
+    worktop_things(scene, "office shelf, things", Place::new(0.0, 6.6, 1.2, 0.0), [10.1, 10.3], seed.wrapping_add(60));
+    flip_chart(scene, Place::new(7.75, 6.75, 0.0, 25.0));
+    pallet(scene, "office, parcels", Place::new(11.2, 6.05, 0.0, 160.0));
+    computer(scene, "east desk, computer", Place::new(11.2, 2.55, 0.0, -90.0));
+    computer(scene, "north desk, computer", Place::new(9.45, 8.3, 0.0, 0.0));
     round_table(scene, "round table", Place::new(8.55, 3.6, 0.0, 0.0));
     papers(scene, "round table, papers", Place::new(8.5, 3.6, DESK, 40.0));
     plain_chair(scene, "round table, chair", Place::new(8.65, 4.3, 0.0, -15.0));

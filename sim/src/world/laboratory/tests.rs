@@ -47,6 +47,34 @@ fn it_is_light_enough_to_render() {
 }
 
 #[test]
+fn a_view_along_the_loop_shows_5_to_20_thousand_triangles() {
+    // Of all objects whose box reaches into the Kinect's wider view, the colour camera's 63° × 49°, hidden ones too.
+    let (wide, high) = (0.61, 0.46);
+    let boxes: Vec<([Vec3; 2], usize)> =
+        WORLD.objects.iter().map(|object| (object.mesh.bounds(), object.mesh.triangles.len())).collect();
+    let points = loop_waypoints();
+    let counts: Vec<usize> = points
+        .windows(2)
+        .map(|pair| {
+            let [from, to] = [pair[0], pair[1]].map(|[x, y]| vec2(x as f32, y as f32));
+            let (eye, ahead) = (from.extend(0.6), (to - from).normalize().extend(0.0));
+            let (left, up) = (Vec3::Z.cross(ahead), Vec3::Z);
+            let planes = [left, -left].map(|side| side + wide * ahead).into_iter();
+            let planes: Vec<Vec3> = planes.chain([up, -up].map(|side| side + high * ahead)).collect();
+            let reaches = |[low, high]: [Vec3; 2], plane: &Vec3| {
+                plane.dot(Vec3::select(plane.cmpge(Vec3::ZERO), high, low) - eye) >= 0.0
+            };
+            let seen = boxes.iter().filter(|(bounds, _)| planes.iter().all(|plane| reaches(*bounds, plane)));
+            seen.map(|(_, triangles)| triangles).sum()
+        })
+        .collect();
+    let (least, most) = (counts.iter().min().expect("points"), counts.iter().max().expect("points"));
+    let mean = counts.iter().sum::<usize>() / counts.len();
+    println!("{least} to {most} triangles a view, mean {mean}");
+    assert!(*most <= 20_000 && (5_000..20_000).contains(&mean), "{least} to {most} triangles a view, mean {mean}");
+}
+
+#[test]
 fn the_names_are_unique() {
     let mut names: Vec<&str> = WORLD.objects.iter().map(|object| object.name.as_str()).collect();
     let count = names.len();

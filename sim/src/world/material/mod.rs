@@ -2,6 +2,7 @@
 
 mod building;
 mod canvas;
+mod fittings;
 mod fronts;
 mod glyph;
 mod noise;
@@ -59,6 +60,23 @@ pub enum Surface {
     PowerSupply,
     RackFront,
     Keyboard,
+    Blind,
+    ToolBoard,
+    PartsDrawers,
+    PeriodicTable,
+    Sockets,
+    HazardTape,
+    LaneTape,
+    FloorPlate,
+    Copier,
+    Notice,
+    Flyer,
+    AmberBottle,
+    WhiteBottle,
+    Computer,
+    Duct,
+    BoxFiles,
+    PrintedBox,
     Binders,
     Books,
     OldBooks,
@@ -129,7 +147,7 @@ fn picture(size: [f32; 2], paint: fn([f32; 2], u32) -> Canvas) -> Recipe {
 
 impl Surface {
     /// All of them; a world's materials are in this order, without those that it has no use for.
-    pub const ALL: [Self; 81] = {
+    pub const ALL: [Self; 98] = {
         use Surface::*;
         [
             WallPaint,
@@ -166,6 +184,23 @@ impl Surface {
             PowerSupply,
             RackFront,
             Keyboard,
+            Blind,
+            ToolBoard,
+            PartsDrawers,
+            PeriodicTable,
+            Sockets,
+            HazardTape,
+            LaneTape,
+            FloorPlate,
+            Copier,
+            Notice,
+            Flyer,
+            AmberBottle,
+            WhiteBottle,
+            Computer,
+            Duct,
+            BoxFiles,
+            PrintedBox,
             Binders,
             Books,
             OldBooks,
@@ -269,6 +304,23 @@ impl Surface {
             Self::PowerSupply => picture([0.24, 0.16], fronts::power_supply),
             Self::RackFront => picture([0.6, 1.8], fronts::rack),
             Self::Keyboard => picture([0.44, 0.14], fronts::keyboard),
+            Self::Blind => tiled([1.0, 1.0], fittings::blind),
+            Self::ToolBoard => picture([1.2, 0.8], fittings::tool_board),
+            Self::PartsDrawers => picture([0.6, 0.6], fittings::parts_drawers),
+            Self::PeriodicTable => picture([1.4, 1.0], fittings::periodic_table),
+            Self::Sockets => picture([0.16, 0.08], fittings::sockets),
+            Self::HazardTape => tiled([1.0, 0.08], fittings::hazard_tape),
+            Self::LaneTape => tiled([1.0, 0.06], fittings::lane_tape),
+            Self::FloorPlate => picture([0.4, 0.4], fittings::floor_plate),
+            Self::Copier => picture([0.6, 1.0], fittings::copier),
+            Self::Notice => picture([0.21, 0.3], fittings::notice),
+            Self::Flyer => picture([0.21, 0.3], fittings::flyer),
+            Self::AmberBottle => picture([0.3, 0.2], fittings::amber_bottle),
+            Self::WhiteBottle => picture([0.3, 0.2], fittings::white_bottle),
+            Self::Computer => picture([0.19, 0.44], fittings::computer),
+            Self::Duct => tiled([0.5, 0.5], fittings::duct),
+            Self::BoxFiles => picture([0.6, 0.3], fittings::box_files),
+            Self::PrintedBox => picture([0.4, 0.28], fittings::printed_box),
             Self::Binders => picture([0.9, 0.32], printed::binders),
             Self::Books => picture([0.9, 0.28], printed::books),
             Self::OldBooks => picture([0.9, 0.26], printed::old_books),

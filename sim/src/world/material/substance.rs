@@ -71,6 +71,8 @@ pub const CLAY: Substance = [0.36, 0.17, 0.09, 0.38];
 pub const ENAMEL: Substance = [0.80, 0.81, 0.80, 0.80];
 /// The face of a switched-off display: dark glass. Guess.
 pub const DARK_GLASS: Substance = [0.025, 0.026, 0.03, 0.04];
+/// Roller blind of glare-control fabric, PVC-coated polyester, pale grey. Guess: as grey paint, its holes dark.
+pub const BLIND: Substance = [0.52, 0.52, 0.50, 0.54];
 /// Opal lamp cover. Guess: as white plastic.
 pub const OPAL: Substance = [0.85, 0.85, 0.85, 0.85];
 /// Red enamel (organic pigment). Guess: vanishes like a dye, over white.
