@@ -24,13 +24,14 @@ struct InfraredSensor {
 @group(0) @binding(0) var<uniform> camera: Camera;
 @group(0) @binding(1) var<uniform> sensor: InfraredSensor;
 @group(0) @binding(2) var<uniform> projector: Projector;
-@group(0) @binding(3) var radiance: texture_2d<f32>;
-@group(0) @binding(4) var places: texture_2d<f32>;
-@group(0) @binding(5) var bilinear: sampler;
-@group(0) @binding(6) var nearest: sampler;
-@group(0) @binding(7) var tile: texture_2d<f32>;
-@group(0) @binding(8) var repeating: sampler;
-@group(0) @binding(9) var<storage, read_write> image: array<u32>;
+@group(0) @binding(3) var<storage, read> directions: array<vec2f>;
+@group(0) @binding(4) var radiance: texture_2d<f32>;
+@group(0) @binding(5) var places: texture_2d<f32>;
+@group(0) @binding(6) var bilinear: sampler;
+@group(0) @binding(7) var nearest: sampler;
+@group(0) @binding(8) var tile: texture_2d<f32>;
+@group(0) @binding(9) var repeating: sampler;
+@group(0) @binding(10) var<storage, read_write> image: array<u32>;
 
 const LARGEST_NUMBER = 1023.0;
 // Neighbouring pixels whose 1/z differ by more than this share lie on different surfaces.
@@ -58,30 +59,31 @@ fn pattern_light(direction: vec2f) -> f32 {
     return brightness * textureSampleLevel(tile, repeating, place, 0.0).r;
 }
 
-// How many instants of the exposure are averaged: fixed when compiled, as the loop then disappears.
+// How many instants of the exposure are averaged: odd, as one is in the middle; fixed when compiled, as the loop then
+// disappears.
 override TAPS: u32 = 1u;
 
 @compute @workgroup_size(64, 1)
 fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
-    let pixel = vec2f(id.xy);
-    let direction = direction_of_pixel(camera, pixel);
+    let index = id.y * camera.size.x + id.x;
+    let direction = directions[index];
     let middle = gbuffer_pixel(camera, direction) + 0.5;
-    let centre = textureSampleLevel(radiance, bilinear, middle / camera.gbuffer_size, 0.0);
-    let motion = image_motion(camera, direction, centre.w);
+    let motion = image_motion(camera, direction, textureLoad(radiance, vec2u(middle), 0).w);
     var ambient = 0.0;
+    // Dots stay where they are while the surface under them passes, and only shift with its depth.
+    var dot_peak = 0.0;
     for (var tap = 0u; tap < TAPS; tap++) {
         let seen = middle - motion * tap_instant(camera, id.y, tap, TAPS);
-        ambient += textureSampleLevel(radiance, bilinear, seen / camera.gbuffer_size, 0.0).x;
+        let light = textureSampleLevel(radiance, bilinear, seen / camera.gbuffer_size, 0.0);
+        ambient += light.x;
+        dot_peak = select(dot_peak, light.y, tap == TAPS / 2u);
     }
-    // Dots stay where they are while the surface under them passes, and only shift with its depth.
     let at = middle - motion * row_instant(camera, id.y);
-    let dot_peak = textureSampleLevel(radiance, bilinear, at / camera.gbuffer_size, 0.0).y;
     let from_projector = direction - vec2f(projector.baseline * inverse_z_at(at), 0.0);
-    let index = id.y * camera.size.x + id.x;
     let speckle = 1.0 + sensor.speckle_contrast * normal(hash(sensor.speckle_key + index));
     let dots = dot_peak * pattern_light(from_projector) * max(speckle, 0.0);
 
-    let light = (ambient * sensor.bandwidth / f32(TAPS) + dots) * vignette(camera, pixel);
+    let light = (ambient * sensor.bandwidth / f32(TAPS) + dots) * vignette(camera, vec2f(id.xy));
     let electrons = light * sensor.electrons_per_radiance;
     let noise = normal(hash(sensor.noise_key + index)) * sqrt(sensor.shot_noise * electrons + sensor.read_variance);
     let number = (electrons + noise) * sensor.numbers_per_electron;

@@ -1,4 +1,5 @@
-// A camera: pinhole, Brown–Conrady lens, motion during the exposure. Camera frame: x right, y down, z forward.
+// A camera: pinhole and motion during the exposure. Camera frame: x right, y down, z forward. Where the lens sends each
+// pixel of the sensor does not change and is told apart: directions, (x/z, y/z), row after row.
 // Pixel centres lie at whole numbers. The G-buffer is the image of the pinhole alone, larger by a margin.
 
 struct Camera {
@@ -13,32 +14,13 @@ struct Camera {
     margin: vec2f,
     gbuffer_size: vec2f,
     size: vec2u,
-    // p1, p2 and k1, k2, k3.
-    tangential: vec2f,
-    radial: vec3f,
     // As shares of the frame interval: exposure of a row, first row's to last row's.
     exposure: f32,
     readout: f32,
     // Brightness lost in the image's corners, share.
     vignetting: f32,
-    padding: vec2u,
-}
-
-// Each gains a factor of ten or more within a Kinect's view: five leave a hundredth of a pixel.
-const UNDISTORTION_ROUNDS = 5;
-
-// The direction (x/z, y/z) that a pixel of the sensor looks in. As the estimator inverts its lens.
-fn direction_of_pixel(camera: Camera, pixel: vec2f) -> vec2f {
-    let distorted = (pixel - camera.centre) / camera.focal;
-    var at = distorted;
-    for (var round = 0; round < UNDISTORTION_ROUNDS; round++) {
-        let r2 = dot(at, at);
-        let radial = 1.0 + r2 * (camera.radial.x + r2 * (camera.radial.y + r2 * camera.radial.z));
-        let cross = 2.0 * at.x * at.y;
-        let shift = cross * camera.tangential + (r2 + 2.0 * at * at) * camera.tangential.yx;
-        at = (distorted - shift) / radial;
-    }
-    return at;
+    padding: f32,
+    more_padding: vec2f,
 }
 
 // The G-buffer's pixel in a direction.
@@ -56,7 +38,7 @@ fn image_motion(camera: Camera, direction: vec2f, inverse_z: f32) -> vec2f {
     let point = vec4f(direction, 1.0, inverse_z);
     let start = camera.start_from_camera * point;
     let end = camera.end_from_camera * point;
-    return (end.xy / end.z - start.xy / start.z) * camera.focal;
+    return (end.xy * start.z - start.xy * end.z) * (camera.focal / (end.z * start.z));
 }
 
 // When the middle of a row's exposure is, as a share of the frame interval, 0 in its middle.

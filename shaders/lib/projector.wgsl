@@ -23,16 +23,16 @@ struct Projector {
     tile_brightness: array<vec4f, 3>,
 }
 
-const PINCUSHION_ROUNDS = 5;
-
 // Where a direction falls in the pattern, in tiles: (0, 0) is the pattern's corner, (3, 3) the opposite one.
 fn tile_of_direction(projector: Projector, direction: vec2f) -> vec2f {
     let aimed = direction + vec2f(projector.toe_in, 0.0);
-    var grid = aimed;
-    for (var round = 0; round < PINCUSHION_ROUNDS; round++) {
-        grid = aimed / (1.0 + projector.pincushion * dot(grid, grid));
-    }
-    return grid / (projector.pitch * vec2f(projector.tile_width, projector.tile_height)) + 1.5;
+    // The lens stretches by 1 + pincushion · r² of where it comes from: undone by the root of s · (1 + bend · s²) = 1.
+    let bend = projector.pincushion * dot(aimed, aimed);
+    // Its first terms, then one step of Newton's: a millionth is left.
+    let near = 1.0 - bend * (1.0 - bend * (3.0 - 12.0 * bend));
+    let square = near * near;
+    let shrink = (1.0 + 2.0 * bend * square * near) / (1.0 + 3.0 * bend * square);
+    return aimed * shrink / (projector.pitch * vec2f(projector.tile_width, projector.tile_height)) + 1.5;
 }
 
 // Where a direction falls in the map of what the projector sees; 0 to 1.

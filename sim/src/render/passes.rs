@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec4};
 use half::f16;
 use sunblind_estimator::camera::CameraModel;
-use wgpu::util::{DeviceExt, TextureDataOrder};
+use wgpu::util::{BufferInitDescriptor, DeviceExt, TextureDataOrder};
 
 use super::device::Device;
 use super::raster::{GBuffer, ProjectorMap, Target, uniform_buffer};
@@ -90,6 +90,15 @@ fn light_target(gpu: &Device, size: [u32; 2]) -> Target {
     Target::new(gpu, size, wgpu::TextureFormat::Rgba16Float, wgpu::TextureUsages::STORAGE_BINDING)
 }
 
+/// Where each pixel of a sensor looks.
+fn directions_buffer(gpu: &Device, view: &View) -> wgpu::Buffer {
+    gpu.device.create_buffer_init(&BufferInitDescriptor {
+        label: Some("directions"),
+        contents: bytemuck::cast_slice(&view.directions()),
+        usage: wgpu::BufferUsages::STORAGE,
+    })
+}
+
 /// Four bytes for every pixel of a sensor.
 fn image_buffer(gpu: &Device, model: &CameraModel) -> wgpu::Buffer {
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -108,6 +117,7 @@ pub(super) fn colour_passes(gpu: &Device, optics: &Optics<'_>, scene: &Scene, sa
     let sensor_uniform = uniform_buffer(gpu, size_of::<ColourSensor>());
     let gbuffer = GBuffer::new(gpu, size, &uniform, "colour_vertex");
     let luminance = light_target(gpu, size);
+    let directions = directions_buffer(gpu, &view);
     let image = image_buffer(gpu, &optics.colour);
     let light = [
         Binding::PreciseTexture(&gbuffer.places.view),
@@ -119,13 +129,14 @@ pub(super) fn colour_passes(gpu: &Device, optics: &Optics<'_>, scene: &Scene, sa
     let sensor = [
         Binding::Uniform(&uniform),
         Binding::Uniform(&sensor_uniform),
+        Binding::Input(&directions),
         Binding::Texture(&luminance.view),
         Binding::Linear(&samplers.bilinear),
         Binding::Output(&image),
     ];
-    let pixels = [optics.colour.width as u32, optics.colour.height as u32];
+    let quads = [optics.colour.width, optics.colour.height].map(|size| size.div_ceil(2) as u32);
     let light = Stage::new(gpu, "colour_light", size, &light);
-    let sensor = sensor_stage(gpu, "colour_sensor", pixels, &sensor);
+    let sensor = sensor_stage(gpu, "colour_sensor", quads, &sensor);
     CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
 }
 
@@ -143,6 +154,7 @@ pub(super) fn infrared_passes(
     let sensor_uniform = uniform_buffer(gpu, size_of::<InfraredSensor>());
     let gbuffer = GBuffer::new(gpu, size, &uniform, "infrared_vertex");
     let radiance = light_target(gpu, size);
+    let directions = directions_buffer(gpu, &view);
     let image = image_buffer(gpu, &optics.infrared);
     let projector = projector_uniform(gpu, &optics.projector);
     let tile = tile_texture(gpu, &optics.projector);
@@ -161,6 +173,7 @@ pub(super) fn infrared_passes(
         Binding::Uniform(&uniform),
         Binding::Uniform(&sensor_uniform),
         Binding::Uniform(&projector),
+        Binding::Input(&directions),
         Binding::Texture(&radiance.view),
         Binding::PreciseTexture(&gbuffer.places.view),
         Binding::Linear(&samplers.bilinear),

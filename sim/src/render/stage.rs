@@ -9,6 +9,8 @@ pub(super) enum Binding<'a> {
     Uniform(&'a wgpu::Buffer),
     /// `var<storage, read_write>`.
     Output(&'a wgpu::Buffer),
+    /// `var<storage, read>`.
+    Input(&'a wgpu::Buffer),
     /// `texture_2d<f32>` of a format that can be filtered.
     Texture(&'a wgpu::TextureView),
     /// `texture_2d<f32>` of full floats, which not every device filters.
@@ -37,6 +39,7 @@ impl<'a> Binding<'a> {
         let (flat, layered) = (wgpu::TextureViewDimension::D2, wgpu::TextureViewDimension::D2Array);
         match self {
             Self::Uniform(_) => buffer(wgpu::BufferBindingType::Uniform),
+            Self::Input(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
             Self::Output(_) => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
             Self::Texture(_) => texture(float(true), flat),
             Self::PreciseTexture(_) => texture(float(false), flat),
@@ -54,7 +57,7 @@ impl<'a> Binding<'a> {
 
     fn resource(&self) -> wgpu::BindingResource<'a> {
         match self {
-            Self::Uniform(buffer) | Self::Output(buffer) => buffer.as_entire_binding(),
+            Self::Uniform(buffer) | Self::Input(buffer) | Self::Output(buffer) => buffer.as_entire_binding(),
             Self::Texture(view)
             | Self::PreciseTexture(view)
             | Self::TextureArray(view)

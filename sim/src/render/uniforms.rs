@@ -1,7 +1,7 @@
 //! What shaders are told, member for member as their WGSL structs; a test compares the layouts.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
+use glam::{Mat4, UVec2, Vec2, Vec4};
 
 /// `Camera` in `shaders/lib/camera.wgsl`.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
@@ -16,12 +16,11 @@ pub(super) struct Camera {
     pub margin: Vec2,
     pub gbuffer_size: Vec2,
     pub size: UVec2,
-    pub tangential: Vec2,
-    pub radial: Vec3,
     pub exposure: f32,
     pub readout: f32,
     pub vignetting: f32,
-    pub padding: UVec2,
+    pub padding: f32,
+    pub more_padding: Vec2,
 }
 
 /// `Projector` in `shaders/lib/projector.wgsl`.
@@ -113,8 +112,8 @@ mod tests {
     #[test]
     fn layouts_are_those_of_the_shaders() {
         assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, start_from_camera,
-            end_from_camera, focal, centre, margin, gbuffer_size, size, tangential, radial, exposure, readout,
-            vignetting, padding);
+            end_from_camera, focal, centre, margin, gbuffer_size, size, exposure, readout,
+            vignetting, padding, more_padding);
         assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,
             map_focal, map_size, map_near, tile_width, tile_height, padding, tile_brightness);
         assert_same_layout!("colour_sensor", ColourSensor: electrons_per_luminance, read_variance, shot_noise,

@@ -1,6 +1,6 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, UVec2, Vec2};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2};
 use nalgebra::Isometry3;
 use sunblind_estimator::camera::CameraModel;
 
@@ -10,8 +10,8 @@ use super::uniforms;
 pub(super) const NEAR: f32 = 0.05;
 /// Pixels of the G-buffer beyond what a camera at rest sees: how far things may move in during half a frame.
 const MOTION_MARGIN: f64 = 16.0;
-/// How many instants of an exposure may be averaged: at rest, driving, spinning.
-pub(super) const TAPS: [u32; 3] = [1, 3, 8];
+/// How many instants of an exposure may be averaged: at rest, driving, spinning. Odd, so that one is in its middle.
+pub(super) const TAPS: [u32; 3] = [1, 3, 7];
 /// Motion in the image that may pass from one of them to the next, pixels.
 const BLUR_STEP: f64 = 1.5;
 /// Depth at which a camera's translation is judged when choosing the number of instants, metres. A guess.
@@ -105,6 +105,13 @@ impl View {
         [index(seen_x, width) as u32, index(seen_y, height) as u32]
     }
 
+    /// (x/z, y/z) that each pixel of the sensor looks in, row after row: how the estimator inverts a lens.
+    pub fn directions(&self) -> Vec<[f32; 2]> {
+        let (width, height) = self.model.size();
+        let ray = |index| self.model.ray(&[(index % width) as f64, (index / width) as f64].into());
+        (0..width * height).map(ray).map(|ray| [ray.x as f32, ray.y as f32]).collect()
+    }
+
     pub fn uniform(&self, frame: &CameraFrame) -> uniforms::Camera {
         let model = &self.model;
         let world_from_camera = frame.sweep.middle();
@@ -116,7 +123,6 @@ impl View {
         // Pixel centres at whole numbers here, edges at whole numbers in clip space.
         let clip_from_camera = clip_from_camera(focal, centre + margin + 0.5, gbuffer_size, NEAR);
         let from_middle = |pose: &DAffine3| DMat4::from(pose.inverse() * world_from_camera).as_mat4();
-        let lens = &model.distortion;
         uniforms::Camera {
             clip_from_world: (clip_from_camera.as_dmat4() * camera_from_world).as_mat4(),
             camera_from_world: camera_from_world.as_mat4(),
@@ -127,12 +133,11 @@ impl View {
             margin,
             gbuffer_size,
             size: [model.width as u32, model.height as u32].into(),
-            tangential: [lens.p1 as f32, lens.p2 as f32].into(),
-            radial: [lens.k1 as f32, lens.k2 as f32, lens.k3 as f32].into(),
             exposure: frame.exposure,
             readout: frame.readout,
             vignetting: frame.vignetting,
-            padding: UVec2::ZERO,
+            padding: 0.0,
+            more_padding: Vec2::ZERO,
         }
     }
 
