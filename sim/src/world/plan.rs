@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::ground::Ground;
 use super::{Mesh, Object, World};
 
-/// Heights between which things are cut and seen from above, metres: above skirting boards and thresholds, below
+/// Heights above the ground between which things are cut and seen from above, metres: above skirting boards and thresholds, below
 /// windows' sills, and including desks.
 const BAND: [f32; 2] = [0.1, 0.85];
 /// What is narrower is a line, millimetres.
@@ -32,7 +33,7 @@ impl Plan {
         let mut plan = Self::default();
         let mut furniture = Vec::new();
         for object in world.objects.iter().filter(|object| object.collides) {
-            for outline in pieces(&object.mesh).into_iter().map(convex_hull) {
+            for outline in pieces(&object.mesh, &world.ground).into_iter().map(convex_hull) {
                 let (length, ends) = longest(&outline);
                 if length < SMALLEST {
                     continue;
@@ -57,11 +58,14 @@ fn rises_to_a_ceiling(object: &Object) -> bool {
 
 /// The corners of each piece of a mesh that hangs together within the band, cut at its edges. A wall with a door falls
 /// into two, because what joins them is above.
-fn pieces(mesh: &Mesh) -> Vec<Vec<Point>> {
+fn pieces(mesh: &Mesh, ground: &Ground) -> Vec<Vec<Point>> {
     let mut groups = Groups::default();
     let mut cut = Vec::new();
     for &triangle in &mesh.triangles {
-        let corners = mesh.corners(triangle).map(|corner| corner.to_array());
+        let corners = mesh.corners(triangle).map(|corner| {
+            let [x, y, z] = corner.to_array();
+            [x, y, z - ground.height(x.into(), y.into()) as f32]
+        });
         let corners_in_band = within_band(&corners);
         if corners_in_band.is_empty() {
             continue;
