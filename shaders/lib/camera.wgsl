@@ -22,6 +22,8 @@ struct Camera {
     // Brightness lost in the image's corners, share.
     vignetting: f32,
     padding: vec2u,
+    // Unit vector in the world's frame, and nothing.
+    towards_sun: vec4f,
 }
 
 // Each gains a factor of ten or more within a Kinect's view: five leave a hundredth of a pixel.

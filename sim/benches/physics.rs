@@ -19,7 +19,7 @@ fn crate_at(x: f32, y: f32) -> Object {
 }
 
 fn simulated_seconds_per_cpu_second(objects: Vec<Object>, floor: Floor) -> f64 {
-    let world = World { name: "bench".into(), objects, materials: Vec::new(), lamps: Vec::new() };
+    let world = World { name: "bench".into(), objects, ..World::default() };
     let mut robot = RobotModel::p3at(&CameraMount::default());
     robot.gyro = Some(InertialNoise::pioneer_gyro());
     let mut simulation =

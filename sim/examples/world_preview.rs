@@ -9,11 +9,12 @@ use std::time::Instant;
 use glam::{DVec3, Vec3, Vec4};
 use image::{Rgb, RgbImage, imageops};
 use rayon::prelude::*;
+use sunblind_sim::light::LightState;
 use sunblind_sim::world::bake::{Effort, bake_cached};
 use sunblind_sim::world::laboratory::{laboratory, loop_waypoints};
 use sunblind_sim::world::material::substance::{encoded, linear};
 use sunblind_sim::world::rays::Rays;
-use sunblind_sim::world::{Brightness, TEXTURE_SIZE, World};
+use sunblind_sim::world::{TEXTURE_SIZE, World};
 
 /// A Kinect's picture at half resolution: width, height, focal length, pixels.
 const VIEW: (u32, u32, f64) = (320, 240, 262.5);
@@ -34,8 +35,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         start.elapsed()
     );
     let start = Instant::now();
-    let origin = bake_cached(&mut world, &Effort::default(), Brightness::FULL, &folder.join("cache"), &|_| ())?;
+    let origin = bake_cached(&mut world, &Effort::default(), &folder.join("cache"), &|_| ())?;
     println!("light: {origin:?} in {:.1?}", start.elapsed());
+    let mut light = world.transfer.irradiance(&world.transfer.weights(&LightState::default())).into_iter();
+    for object in &mut world.objects {
+        object.mesh.irradiance = light.by_ref().take(object.mesh.positions.len()).collect();
+    }
 
     let rays = Rays::new(&world.objects).ok_or("an empty world")?;
     let radiosity = |origin: DVec3, direction: DVec3| look(&world, &rays, origin, direction);

@@ -187,7 +187,7 @@ mod tests {
 
     fn world(mesh: Mesh) -> World {
         let object = Object { name: "thing".into(), mesh, material: 0, collides: true };
-        World { name: "test".into(), objects: vec![object], materials: Vec::new(), lamps: Vec::new() }
+        World { name: "test".into(), objects: vec![object], ..World::default() }
     }
 
     fn cuboid(min: [f32; 3], max: [f32; 3]) -> World {

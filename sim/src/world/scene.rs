@@ -49,7 +49,13 @@ impl Scene {
 
     /// What has been built, with materials painted from `seed`.
     pub fn finish(self, name: &str, seed: u64) -> World {
-        World { name: name.to_owned(), objects: self.objects, materials: material::materials(seed), lamps: self.lamps }
+        World {
+            name: name.to_owned(),
+            objects: self.objects,
+            materials: material::materials(seed),
+            lamps: self.lamps,
+            ..World::default()
+        }
     }
 }
 

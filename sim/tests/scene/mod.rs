@@ -108,7 +108,7 @@ pub fn block(centre: Vec3, size: Vec3, light: Light) -> Mesh {
 }
 
 pub fn world(name: &str, objects: Vec<Object>, materials: Vec<Material>) -> World {
-    World { name: name.into(), objects, materials, lamps: Vec::new() }
+    World { name: name.into(), objects, materials, ..World::default() }
 }
 
 /// Nothing but a wall straight ahead.

@@ -18,7 +18,7 @@ fn place(x: f64, y: f64, heading: f64) -> Isometry3<f64> {
 }
 
 fn world(objects: Vec<Object>) -> World {
-    World { name: "test".into(), objects, materials: Vec::new(), lamps: Vec::new() }
+    World { name: "test".into(), objects, ..World::default() }
 }
 
 fn on(floors: impl Into<FloorPlan>) -> Simulation {

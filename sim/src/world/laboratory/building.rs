@@ -6,7 +6,7 @@ use super::CEILING;
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Piece, Scene};
 use crate::world::shape::{Place, even_cuts};
-use crate::world::{Lamp, LightSource, Mesh};
+use crate::world::{Lamp, Mesh, WINDOWS};
 
 /// Exitance of a ceiling panel's cover, lux. A LED panel of 0.72 m² and some 5200 lm. 830 nm: none, it is a white LED.
 const PANEL: [f32; 4] = [7400.0, 7200.0, 6900.0, 0.0];
@@ -119,7 +119,7 @@ pub(super) fn window(scene: &mut Scene, wall: &Wall, opening: &Opening) {
         centre: centre.to_array(),
         half_edges: [along.to_array(), [0.0, 0.0, 0.5 * (top - bottom)]],
         exitance: DAYLIGHT,
-        source: LightSource::Daylight,
+        group: WINDOWS.to_owned(),
     });
 }
 
@@ -143,7 +143,7 @@ pub(super) fn outlook(scene: &mut Scene, name: &'static str, from: [f32; 2], to:
         centre: place.point(vec3(0.5 * length, -2.0, 0.5 * (low + high))).to_array(),
         half_edges: [[0.0, 0.0, 0.5 * (high - low)], along.to_array()],
         exitance: OUTDOORS,
-        source: LightSource::Daylight,
+        group: WINDOWS.to_owned(),
     });
 }
 
@@ -173,7 +173,7 @@ pub(super) fn panel(scene: &mut Scene, name: &str, [x, y]: [f32; 2], size: [f32;
         centre: [x, y, CEILING - 0.036],
         half_edges: [[0.0, half.y, 0.0], [half.x, 0.0, 0.0]],
         exitance: PANEL,
-        source: LightSource::Electric,
+        group: "ceiling".to_owned(),
     });
 }
 
