@@ -1,20 +1,41 @@
 // G-buffer → luminance, as the pinhole sees it at one instant.
+#import lib/camera
+#import lib/daylight
 #import lib/surface
 
-@group(0) @binding(0) var places: texture_2d<f32>;
-@group(0) @binding(1) var lights: texture_2d<f32>;
-@group(0) @binding(2) var albedos: texture_2d_array<f32>;
-@group(0) @binding(3) var repeating: sampler;
+@group(0) @binding(0) var<uniform> camera: Camera;
+@group(0) @binding(1) var places: texture_2d<f32>;
+@group(0) @binding(2) var lights: texture_2d<f32>;
+@group(0) @binding(3) var albedos: texture_2d_array<f32>;
+@group(0) @binding(4) var repeating: sampler;
+@group(0) @binding(5) var<uniform> daylight: Daylight;
+@group(0) @binding(6) var sun_map: texture_depth_2d;
+@group(0) @binding(7) var nearest: sampler;
 // R, G, B in LUX_PER_UNIT cd/m²; 1/z in metres⁻¹.
-@group(0) @binding(4) var luminance: texture_storage_2d<rgba16float, write>;
+@group(0) @binding(8) var luminance: texture_storage_2d<rgba16float, write>;
+
+// What there is of daylight: fixed when compiled, so that what is not there costs nothing.
+override SKY: bool = false;
+override SUN: bool = false;
 
 @compute @workgroup_size(64, 1)
 fn colour_light(@builtin(global_invocation_id) id: vec3u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
     let place = textureLoad(places, id.xy, 0);
-    let irradiance = textureLoad(lights, id.xy, 0).rgb;
+    let light = textureLoad(lights, id.xy, 0);
     let layer = floor(place.w / LEVELS);
     let albedo = textureSampleLevel(albedos, repeating, place.xy, u32(layer), place.w - LEVELS * layer).rgb;
+    let inverse_z = place.z;
+    let direction = vec3f(direction_of_gbuffer_pixel(camera, vec2f(id.xy)), 1.0);
+    var irradiance = light.rgb;
+    if SUN {
+        let facing = max(light.w, 0.0);
+        irradiance += daylight.beam.rgb * facing * sunlit(daylight, sun_map, nearest, direction / inverse_z, facing);
+    }
     // Lambertian: luminance = albedo · irradiance / π.
-    textureStore(luminance, id.xy, vec4f(linear_from_srgb(albedo) * irradiance / PI, place.z));
+    var seen = linear_from_srgb(albedo) * irradiance / PI;
+    if SKY {
+        seen = select(sky(daylight, direction).rgb, seen, inverse_z > 0.0);
+    }
+    textureStore(luminance, id.xy, vec4f(seen, inverse_z));
 }

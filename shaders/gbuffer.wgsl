@@ -23,14 +23,16 @@ struct Corner {
 struct Surface {
     // u, v, 1/z, LEVELS · material + mip level.
     @location(0) place: vec4f,
-    // Colour: irradiance in LUX_PER_UNIT. Infrared: normal in the camera's frame, spectral irradiance at 830 nm.
+    // Colour: irradiance in LUX_PER_UNIT, cosine to the sun. Infrared: normal in the camera's frame, spectral irradiance
+    // at 830 nm.
     @location(1) light: vec4f,
 }
 
 @vertex
 fn colour_vertex(vertex: Vertex) -> Corner {
     let position = camera.clip_from_world * vec4f(vertex.position, 1.0);
-    return Corner(position, vertex.uv, vertex.irradiance / LUX_PER_UNIT, vertex.material);
+    let light = vec4f(vertex.irradiance.rgb / LUX_PER_UNIT, dot(vertex.normal.xyz, camera.towards_sun.xyz));
+    return Corner(position, vertex.uv, light, vertex.material);
 }
 
 @vertex

@@ -21,6 +21,8 @@ struct Camera {
     vignetting: f32,
     padding: f32,
     more_padding: vec2f,
+    // Unit vector in the world's frame, and nothing.
+    towards_sun: vec4f,
 }
 
 // The G-buffer's pixel in a direction.

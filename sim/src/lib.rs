@@ -11,6 +11,7 @@ pub mod cli;
 pub mod evaluation;
 mod false_colour;
 pub mod kinect;
+pub mod light;
 pub mod new_folder;
 pub mod physics;
 pub mod random;

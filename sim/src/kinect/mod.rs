@@ -15,6 +15,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sunblind_estimator::image::{DepthImage, Image, InfraredImage, RgbImage};
 
+use crate::light::LightState;
 use crate::render::{
     Adapter, CameraFrame, Frame, Images, Optics, ProjectorLight, RenderError, Renderer, StageCost, Sweep, affine,
 };
@@ -120,6 +121,11 @@ impl Kinect {
     /// Switches the device off and on again: before the next frame the exposures fit the light anew.
     pub fn restart(&mut self) {
         self.settled = false;
+    }
+
+    /// Has the world under this light from the next frame on. At first, it is the light's default.
+    pub fn illuminate(&mut self, light: &LightState) {
+        self.renderer.illuminate(light);
     }
 
     /// Takes one frame. `world_from_infrared`: the device's pose over the frame interval, in whose middle the exposures

@@ -6,6 +6,7 @@
 //!
 //! Equal inputs give equal bytes, on one adapter and driver.
 
+mod daylight;
 mod device;
 mod passes;
 mod raster;

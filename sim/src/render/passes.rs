@@ -5,8 +5,9 @@ use half::f16;
 use sunblind_estimator::camera::CameraModel;
 use wgpu::util::{BufferInitDescriptor, DeviceExt, TextureDataOrder};
 
+use super::daylight::Daylight;
 use super::device::Device;
-use super::raster::{GBuffer, ProjectorMap, Target, uniform_buffer};
+use super::raster::{DepthMap, GBuffer, Target, uniform_buffer};
 use super::scene::Scene;
 use super::stage::{Binding, Stage};
 use super::uniforms::{self, ColourSensor, InfraredSensor};
@@ -53,6 +54,7 @@ pub(super) struct CameraPasses {
     pub view: View,
     pub uniform: wgpu::Buffer,
     pub sensor_uniform: wgpu::Buffer,
+    pub daylight_uniform: wgpu::Buffer,
     pub gbuffer: GBuffer,
     pub light: Stage,
     pub sensor: Stage,
@@ -110,20 +112,31 @@ fn image_buffer(gpu: &Device, model: &CameraModel) -> wgpu::Buffer {
 }
 
 /// From the world to the colour camera's image.
-pub(super) fn colour_passes(gpu: &Device, optics: &Optics<'_>, scene: &Scene, samplers: &Samplers) -> CameraPasses {
+pub(super) fn colour_passes(
+    gpu: &Device,
+    optics: &Optics<'_>,
+    scene: &Scene,
+    samplers: &Samplers,
+    daylight: &Daylight,
+) -> CameraPasses {
     let view = View::new(optics.colour);
     let size = view.gbuffer_size();
     let uniform = uniform_buffer(gpu, size_of::<uniforms::Camera>());
     let sensor_uniform = uniform_buffer(gpu, size_of::<ColourSensor>());
     let gbuffer = GBuffer::new(gpu, size, &uniform, "colour_vertex");
+    let daylight_uniform = uniform_buffer(gpu, size_of::<uniforms::Daylight>());
     let luminance = light_target(gpu, size);
     let directions = directions_buffer(gpu, &view);
     let image = image_buffer(gpu, &optics.colour);
     let light = [
+        Binding::Uniform(&uniform),
         Binding::PreciseTexture(&gbuffer.places.view),
         Binding::Texture(&gbuffer.lights.view),
         Binding::TextureArray(&scene.albedos),
         Binding::Linear(&samplers.repeating),
+        Binding::Uniform(&daylight_uniform),
+        Binding::Depth(&daylight.map.depth.view),
+        Binding::Nearest(&samplers.nearest),
         Binding::OutputTexture(&luminance.view),
     ];
     let sensor = [
@@ -135,9 +148,9 @@ pub(super) fn colour_passes(gpu: &Device, optics: &Optics<'_>, scene: &Scene, sa
         Binding::Output(&image),
     ];
     let quads = [optics.colour.width, optics.colour.height].map(|size| size.div_ceil(2) as u32);
-    let light = Stage::new(gpu, "colour_light", size, &light);
+    let light = light_stage(gpu, "colour_light", size, &light, daylight);
     let sensor = sensor_stage(gpu, "colour_sensor", quads, &sensor);
-    CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
+    CameraPasses { view, uniform, sensor_uniform, daylight_uniform, gbuffer, light, sensor, image }
 }
 
 /// From the world, and what the projector reaches of it, to the infrared camera's image.
@@ -146,13 +159,15 @@ pub(super) fn infrared_passes(
     optics: &Optics<'_>,
     scene: &Scene,
     samplers: &Samplers,
-    projector_map: &ProjectorMap,
+    projector_map: &DepthMap,
+    daylight: &Daylight,
 ) -> CameraPasses {
     let view = View::new(optics.infrared);
     let size = view.gbuffer_size();
     let uniform = uniform_buffer(gpu, size_of::<uniforms::Camera>());
     let sensor_uniform = uniform_buffer(gpu, size_of::<InfraredSensor>());
     let gbuffer = GBuffer::new(gpu, size, &uniform, "infrared_vertex");
+    let daylight_uniform = uniform_buffer(gpu, size_of::<uniforms::Daylight>());
     let radiance = light_target(gpu, size);
     let directions = directions_buffer(gpu, &view);
     let image = image_buffer(gpu, &optics.infrared);
@@ -167,6 +182,8 @@ pub(super) fn infrared_passes(
         Binding::Uniform(&projector),
         Binding::Depth(&projector_map.depth.view),
         Binding::Nearest(&samplers.nearest),
+        Binding::Uniform(&daylight_uniform),
+        Binding::Depth(&daylight.map.depth.view),
         Binding::OutputTexture(&radiance.view),
     ];
     let sensor = [
@@ -183,9 +200,21 @@ pub(super) fn infrared_passes(
         Binding::Output(&image),
     ];
     let pixels = [optics.infrared.width as u32, optics.infrared.height as u32];
-    let light = Stage::new(gpu, "infrared_light", size, &light);
+    let light = light_stage(gpu, "infrared_light", size, &light, daylight);
     let sensor = sensor_stage(gpu, "infrared_sensor", pixels, &sensor);
-    CameraPasses { view, uniform, sensor_uniform, gbuffer, light, sensor, image }
+    CameraPasses { view, uniform, sensor_uniform, daylight_uniform, gbuffer, light, sensor, image }
+}
+
+/// A light's shader, compiled for every [variant](Daylight::variant) of the daylight that the world can have.
+fn light_stage(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_>], daylight: &Daylight) -> Stage {
+    let variants: Vec<[(&str, f64); 2]> = daylight.variants().map(|[sky, sun]| [("SKY", sky), ("SUN", sun)]).collect();
+    Stage::with_variants(
+        gpu,
+        name,
+        size,
+        bindings,
+        &variants.iter().map(|variant| variant.as_slice()).collect::<Vec<_>>(),
+    )
 }
 
 /// A sensor's shader, compiled for every number of instants that its exposure may be made of.

@@ -1,4 +1,4 @@
-//! Passes that turn triangles into pixels: a camera's G-buffer, and the projector's map of depth.
+//! Passes that turn triangles into pixels: a camera's G-buffer, and a light's map of depth.
 
 use glam::Mat4;
 
@@ -11,8 +11,6 @@ const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// u, v, 1/z and the material need full floats; light does not.
 const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 const LIGHTS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// How much further away a lit surface may lie than the projector's map says, in slopes of the map's pixels.
-const SLOPE_BIAS: f32 = -2.0;
 
 /// Something drawn into.
 pub(super) struct Target {
@@ -73,7 +71,15 @@ impl GBuffer {
             places: Target::new(gpu, size, PLACES, attachment | wgpu::TextureUsages::COPY_SRC),
             lights: Target::new(gpu, size, LIGHTS, attachment),
             depth: Target::new(gpu, size, DEPTH, attachment),
-            pipeline: pipeline(gpu, &layout, &shader, vertex, Some(fragment), wgpu::DepthBiasState::default()),
+            pipeline: pipeline(
+                gpu,
+                &layout,
+                &shader,
+                vertex,
+                Some(fragment),
+                Default::default(),
+                Some(wgpu::Face::Back),
+            ),
             group,
         }
     }
@@ -95,21 +101,30 @@ impl GBuffer {
     }
 }
 
-/// What the projector's light reaches: near/z.
-pub(super) struct ProjectorMap {
+/// How far a light reaches: depth alone, seen from it.
+pub(super) struct DepthMap {
     pub depth: Target,
     pipeline: wgpu::RenderPipeline,
     group: wgpu::BindGroup,
 }
 
-impl ProjectorMap {
-    pub fn new(gpu: &Device, size: [u32; 2], clip_from_world: &wgpu::Buffer) -> Self {
+impl DepthMap {
+    /// `slope_bias`: how much further away a lit surface may lie than the map says, in slopes of the map's pixels.
+    /// `both_sides`: whether surfaces cast shadows that turn their back to the light.
+    pub fn new(
+        gpu: &Device,
+        size: [u32; 2],
+        clip_from_world: &wgpu::Buffer,
+        slope_bias: f32,
+        both_sides: bool,
+    ) -> Self {
         let (layout, group) = bind(gpu, wgpu::ShaderStages::VERTEX, &[Binding::Uniform(clip_from_world)]);
-        let shader = shader::module(&gpu.device, "projector_map");
-        let bias = wgpu::DepthBiasState { constant: 0, slope_scale: SLOPE_BIAS, clamp: 0.0 };
+        let shader = shader::module(&gpu.device, "depth_map");
+        let bias = wgpu::DepthBiasState { constant: 0, slope_scale: slope_bias, clamp: 0.0 };
+        let cull = if both_sides { None } else { Some(wgpu::Face::Back) };
         Self {
             depth: Target::new(gpu, size, DEPTH, wgpu::TextureUsages::RENDER_ATTACHMENT),
-            pipeline: pipeline(gpu, &layout, &shader, "projector_vertex", None, bias),
+            pipeline: pipeline(gpu, &layout, &shader, "depth_vertex", None, bias, cull),
             group,
         }
     }
@@ -126,6 +141,7 @@ fn pipeline(
     vertex: &str,
     fragment: Option<wgpu::FragmentState<'_>>,
     bias: wgpu::DepthBiasState,
+    cull_mode: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(vertex),
@@ -143,7 +159,7 @@ fn pipeline(
             // A depth map needs positions alone.
             buffers: if fragment.is_some() { &buffers } else { &buffers[..1] },
         },
-        primitive: wgpu::PrimitiveState { cull_mode: Some(wgpu::Face::Back), ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),

@@ -5,13 +5,15 @@ use std::time::{Duration, Instant};
 use cpu_time::ProcessTime;
 use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2};
 
+use super::daylight::Daylight;
 use super::device::{Adapter, Device, RenderError};
 use super::passes::{CameraPasses, MAP_FOCAL, MAP_SIZE, Optics, Samplers, colour_passes, infrared_passes};
-use super::raster::{ProjectorMap, uniform_buffer};
+use super::raster::{DepthMap, uniform_buffer};
 use super::readback::Readback;
 use super::scene::Scene;
 use super::view::{NEAR, clip_from_camera};
 use super::{CameraFrame, ColourSensor, InfraredSensor};
+use crate::light::LightState;
 use crate::world::World;
 
 /// What is to be seen in one frame, and how it is taken.
@@ -51,7 +53,8 @@ pub struct StageCost {
 pub struct Renderer {
     gpu: Device,
     scene: Scene,
-    projector_map: ProjectorMap,
+    daylight: Daylight,
+    projector_map: DepthMap,
     projector_clip: wgpu::Buffer,
     infrared_from_projector: DAffine3,
     toe_in: f32,
@@ -60,14 +63,18 @@ pub struct Renderer {
     readback: Readback,
 }
 
-/// What the stages of one frame need to know here: clip-space matrices (from the world) and numbers of instants.
+/// What the stages of one frame need to know here: which light there is, clip-space matrices (from the world) and numbers of instants.
 struct Plan {
+    light: usize,
     projector_clip: Mat4,
     colour_clip: Mat4,
     infrared_clip: Mat4,
     colour_taps: usize,
     infrared_taps: usize,
 }
+
+/// How much further away a lit surface may lie than the projector's map says, in slopes of the map's pixels.
+const SLOPE_BIAS: f32 = -2.0;
 
 const STAGES: [&str; 8] = [
     "projector map",
@@ -90,14 +97,16 @@ impl Renderer {
         let scene = Scene::upload(&gpu, world)?;
         let samplers = Samplers::new(&gpu);
         let projector_clip = uniform_buffer(&gpu, size_of::<Mat4>());
-        let projector_map = ProjectorMap::new(&gpu, MAP_SIZE, &projector_clip);
-        let colour = colour_passes(&gpu, optics, &scene, &samplers);
-        let infrared = infrared_passes(&gpu, optics, &scene, &samplers, &projector_map);
+        let projector_map = DepthMap::new(&gpu, MAP_SIZE, &projector_clip, SLOPE_BIAS, false);
+        let daylight = Daylight::new(&gpu, world.open_sky);
+        let colour = colour_passes(&gpu, optics, &scene, &samplers, &daylight);
+        let infrared = infrared_passes(&gpu, optics, &scene, &samplers, &projector_map, &daylight);
         let readback = Readback::new(&gpu, colour.image.size() + infrared.image.size());
         let along_baseline = DVec3::X * f64::from(optics.projector.baseline);
         Ok(Self {
             gpu,
             scene,
+            daylight,
             projector_map,
             projector_clip,
             infrared_from_projector: DAffine3::from_translation(along_baseline),
@@ -111,6 +120,12 @@ impl Renderer {
     /// The adapter that renders.
     pub fn adapter(&self) -> &Adapter {
         &self.gpu.adapter
+    }
+
+    /// Has the world under this light from now on.
+    pub fn illuminate(&mut self, light: &LightState) {
+        self.scene.illuminate(&self.gpu, light);
+        self.daylight.change(&self.gpu, &self.scene, light);
     }
 
     /// Takes both images.
@@ -183,8 +198,8 @@ impl Renderer {
     /// Tells the device where everything is.
     fn prepare(&self, frame: &Frame) -> Plan {
         let write = |buffer: &wgpu::Buffer, bytes: &[u8]| self.gpu.queue.write_buffer(buffer, 0, bytes);
-        let colour = self.colour.view.uniform(&frame.colour);
-        let infrared = self.infrared.view.uniform(&frame.infrared);
+        let colour = self.colour.view.uniform(&frame.colour, self.daylight.towards());
+        let infrared = self.infrared.view.uniform(&frame.infrared, self.daylight.towards());
         let world_from_projector = frame.infrared.sweep.middle() * self.infrared_from_projector;
         let size = Vec2::from(MAP_SIZE.map(|size| size as f32));
         let centre = size / 2.0 + Vec2::new(self.toe_in * MAP_FOCAL, 0.0);
@@ -195,7 +210,13 @@ impl Renderer {
         write(&self.colour.sensor_uniform, bytemuck::bytes_of(&frame.colour_sensor));
         write(&self.infrared.uniform, bytemuck::bytes_of(&infrared));
         write(&self.infrared.sensor_uniform, bytemuck::bytes_of(&frame.infrared_sensor));
+        for (camera, frame) in [(&self.colour, &frame.colour), (&self.infrared, &frame.infrared)] {
+            if let Some(daylight) = self.daylight.uniform(&frame.sweep.middle()) {
+                write(&camera.daylight_uniform, bytemuck::bytes_of(&daylight));
+            }
+        }
         Plan {
+            light: self.daylight.variant(),
             projector_clip: projector,
             colour_clip: colour.clip_from_world,
             infrared_clip: infrared.clip_from_world,
@@ -209,8 +230,8 @@ impl Renderer {
             0 => self.projector_map.encode(encoder, &self.scene, &plan.projector_clip),
             1 => self.colour.gbuffer.encode(encoder, &self.scene, &plan.colour_clip),
             2 => self.infrared.gbuffer.encode(encoder, &self.scene, &plan.infrared_clip),
-            3 => self.colour.light.encode(encoder, 0),
-            4 => self.infrared.light.encode(encoder, 0),
+            3 => self.colour.light.encode(encoder, plan.light),
+            4 => self.infrared.light.encode(encoder, plan.light),
             5 => self.colour.sensor.encode(encoder, plan.colour_taps),
             6 => self.infrared.sensor.encode(encoder, plan.infrared_taps),
             _ => {

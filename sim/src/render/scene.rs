@@ -1,6 +1,7 @@
 //! The world on the graphics device: geometry, albedos, and which parts of it a view shows.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4, Vec4Swizzles};
@@ -8,12 +9,15 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::device::{Device, RenderError};
 use super::texture::albedo_array;
+use crate::light::{Bands, LightState, each};
+use crate::world::transfer::{Transfer, Weights};
 use crate::world::{Mesh, World};
 
 /// The geometry and albedos of a world.
 pub(super) struct Scene {
     positions: wgpu::Buffer,
     attributes: wgpu::Buffer,
+    irradiances: Irradiances,
     indices: wgpu::Buffer,
     pub albedos: wgpu::TextureView,
     parts: Vec<Part>,
@@ -30,23 +34,33 @@ struct Part {
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct Attributes {
-    normal: [i8; 4],
+    normal: [i16; 4],
     uv: [f32; 2],
-    irradiance: [f32; 4],
     material: u32,
 }
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
-const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![1 => Snorm8x4, 2 => Float32x2, 3 => Float32x4, 4 => Uint32];
+const ATTRIBUTES: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![1 => Snorm16x4, 2 => Float32x2, 4 => Uint32];
+const IRRADIANCE: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![3 => Float32x4];
+
+/// The light on the vertices.
+struct Irradiances {
+    buffer: wgpu::Buffer,
+    /// What is there whatever shines.
+    constant: Vec<Bands>,
+    transfer: Arc<Transfer>,
+    /// What the buffer holds.
+    weights: Weights,
+}
 
 impl Scene {
-    /// Layouts of the two vertex buffers; the first is all that a depth map needs.
-    pub fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 2] {
+    /// Layouts of the vertex buffers; the first is all that a depth map needs.
+    pub fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3] {
         let layout = |array_stride, attributes| {
             Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
         };
-        [layout(12, &POSITION), layout(size_of::<Attributes>() as u64, &ATTRIBUTES)]
+        let attributes = layout(size_of::<Attributes>() as u64, &ATTRIBUTES);
+        [layout(12, &POSITION), attributes, layout(size_of::<Bands>() as u64, &IRRADIANCE)]
     }
 
     pub fn upload(gpu: &Device, world: &World) -> Result<Self, RenderError> {
@@ -59,19 +73,50 @@ impl Scene {
             let contents = if contents.is_empty() { &[0; 64] } else { contents };
             gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
         };
+        let weights = world.transfer.weights(&LightState::default());
+        let light = with(&geometry.irradiances, &world.transfer.irradiance(&weights));
+        let irradiances = Irradiances {
+            buffer: buffer(
+                "irradiances",
+                bytemuck::cast_slice(&light),
+                wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+            ),
+            constant: geometry.irradiances,
+            transfer: Arc::clone(&world.transfer),
+            weights,
+        };
         Ok(Self {
             positions: buffer("positions", bytemuck::cast_slice(&geometry.positions), wgpu::BufferUsages::VERTEX),
             attributes: buffer("attributes", bytemuck::cast_slice(&geometry.attributes), wgpu::BufferUsages::VERTEX),
+            irradiances,
             indices: buffer("indices", bytemuck::cast_slice(&geometry.indices), wgpu::BufferUsages::INDEX),
             albedos: albedo_array(gpu, &world.materials)?,
             parts: geometry.parts,
         })
     }
 
+    /// Adds up the light on the vertices anew, if it differs.
+    pub fn illuminate(&mut self, gpu: &Device, light: &LightState) {
+        let Irradiances { buffer, constant, transfer, weights } = &mut self.irradiances;
+        let wanted = transfer.weights(light);
+        if wanted != *weights {
+            let light = with(constant, &transfer.irradiance(&wanted));
+            gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&light));
+            *weights = wanted;
+        }
+    }
+
+    /// The box around everything.
+    pub fn bounds(&self) -> Bounds {
+        let corners = self.parts.iter().flat_map(|part| [part.bounds.lowest, part.bounds.highest]);
+        Bounds::of(corners.filter(|corner| corner.is_finite()))
+    }
+
     /// Draws what a view may show, near things first, so that what they hide costs little.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, clip_from_world: &Mat4) {
         pass.set_vertex_buffer(0, self.positions.slice(..));
         pass.set_vertex_buffer(1, self.attributes.slice(..));
+        pass.set_vertex_buffer(2, self.irradiances.buffer.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         let planes = frustum(clip_from_world);
         let mut seen: Vec<(f32, &Part)> = (self.parts.iter())
@@ -85,17 +130,25 @@ impl Scene {
     }
 }
 
+/// What is there whatever shines and what the sources bring; either may be missing.
+fn with(constant: &[Bands], light: &[Bands]) -> Vec<Bands> {
+    if light.len() != constant.len() {
+        return constant.to_vec();
+    }
+    constant.iter().zip(light).map(|(constant, light)| each(|band| constant[band] + light[band])).collect()
+}
+
 /// A box along the world's axes, metres.
-struct Bounds {
-    lowest: Vec3,
-    highest: Vec3,
+pub(super) struct Bounds {
+    pub lowest: Vec3,
+    pub highest: Vec3,
 }
 
 impl Bounds {
-    fn of(positions: &[[f32; 3]]) -> Self {
+    fn of(positions: impl Iterator<Item = Vec3>) -> Self {
         let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (lowest, highest) = (positions.iter().map(|&position| Vec3::from(position)))
-            .fold(none, |(lowest, highest), position| (lowest.min(position), highest.max(position)));
+        let (lowest, highest) =
+            positions.fold(none, |(lowest, highest), position| (lowest.min(position), highest.max(position)));
         Self { lowest, highest }
     }
 
@@ -120,6 +173,7 @@ fn frustum(clip_from_world: &Mat4) -> [Vec4; 5] {
 struct Geometry {
     positions: Vec<[f32; 3]>,
     attributes: Vec<Attributes>,
+    irradiances: Vec<Bands>,
     indices: Vec<[u32; 3]>,
     parts: Vec<Part>,
 }
@@ -130,14 +184,18 @@ impl Geometry {
         let first_vertex = self.positions.len() as i32;
         self.positions.extend_from_slice(&mesh.positions);
         self.attributes.extend((0..mesh.positions.len()).map(|vertex| {
-            let [x, y, z] = mesh.normals[vertex].map(|value| (value * 127.0).round() as i8);
-            // Not baked yet: dark.
-            let irradiance = mesh.irradiance.get(vertex).copied().unwrap_or_default();
-            Attributes { normal: [x, y, z, 0], uv: mesh.uvs[vertex], irradiance, material }
+            let [x, y, z] = mesh.normals[vertex].map(|value| (value * 32767.0).round() as i16);
+            Attributes { normal: [x, y, z, 0], uv: mesh.uvs[vertex], material }
         }));
+        let constant = |vertex| mesh.irradiance.get(vertex).copied().unwrap_or_default();
+        self.irradiances.extend((0..mesh.positions.len()).map(constant));
         self.indices.extend_from_slice(&mesh.triangles);
         let indices = first_index..3 * self.indices.len() as u32;
-        self.parts.push(Part { bounds: Bounds::of(&mesh.positions), indices, first_vertex });
+        self.parts.push(Part {
+            bounds: Bounds::of(mesh.positions.iter().map(|&position| position.into())),
+            indices,
+            first_vertex,
+        });
     }
 }
 

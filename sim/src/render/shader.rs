@@ -10,15 +10,16 @@ macro_rules! sources {
 
 sources![
     "lib/camera",
+    "lib/daylight",
     "lib/noise",
     "lib/projector",
     "lib/surface",
     "colour_light",
     "colour_sensor",
+    "depth_map",
     "gbuffer",
     "infrared_light",
     "infrared_sensor",
-    "projector_map",
 ];
 
 fn text(name: &str) -> &'static str {

@@ -101,12 +101,8 @@ pub(super) struct Stage {
 const WORKGROUP: u32 = 64;
 
 impl Stage {
-    /// The shader's entry point is called as its file is.
-    pub fn new(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_>]) -> Self {
-        Self::with_variants(gpu, name, size, bindings, &[&[]])
-    }
-
-    /// Compiles the shader once for each set of values of its `override` constants.
+    /// Compiles the shader once for each set of values of its `override` constants. Its entry point is called as its file
+    /// is.
     pub fn with_variants(
         gpu: &Device,
         name: &str,

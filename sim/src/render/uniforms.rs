@@ -1,7 +1,7 @@
 //! What shaders are told, member for member as their WGSL structs; a test compares the layouts.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, UVec2, Vec2, Vec4};
+use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
 
 /// `Camera` in `shaders/lib/camera.wgsl`.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
@@ -21,6 +21,23 @@ pub(super) struct Camera {
     pub vignetting: f32,
     pub padding: f32,
     pub more_padding: Vec2,
+    pub towards_sun: Vec4,
+}
+
+/// `Daylight` in `shaders/lib/daylight.wgsl`.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Daylight {
+    pub map_from_camera: Mat4,
+    pub beam: Vec4,
+    pub level: Vec4,
+    pub rise: Vec4,
+    pub glow: Vec4,
+    pub ground: Vec4,
+    pub towards: Vec3,
+    pub map_size: f32,
+    pub up: Vec3,
+    pub map_step: f32,
 }
 
 /// `Projector` in `shaders/lib/projector.wgsl`.
@@ -113,7 +130,9 @@ mod tests {
     fn layouts_are_those_of_the_shaders() {
         assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, start_from_camera,
             end_from_camera, focal, centre, margin, gbuffer_size, size, exposure, readout,
-            vignetting, padding, more_padding);
+            vignetting, padding, more_padding, towards_sun);
+        assert_same_layout!("lib/daylight", Daylight: map_from_camera, beam, level, rise, glow, ground, towards,
+            map_size, up, map_step);
         assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,
             map_focal, map_size, map_near, tile_width, tile_height, padding, tile_brightness);
         assert_same_layout!("colour_sensor", ColourSensor: electrons_per_luminance, read_variance, shot_noise,

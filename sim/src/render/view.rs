@@ -1,6 +1,6 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2, Vec3};
 use nalgebra::Isometry3;
 use sunblind_estimator::camera::CameraModel;
 
@@ -112,7 +112,7 @@ impl View {
         (0..width * height).map(ray).map(|ray| [ray.x as f32, ray.y as f32]).collect()
     }
 
-    pub fn uniform(&self, frame: &CameraFrame) -> uniforms::Camera {
+    pub fn uniform(&self, frame: &CameraFrame, towards_sun: Vec3) -> uniforms::Camera {
         let model = &self.model;
         let world_from_camera = frame.sweep.middle();
         let camera_from_world = DMat4::from(world_from_camera.inverse());
@@ -138,6 +138,7 @@ impl View {
             vignetting: frame.vignetting,
             padding: 0.0,
             more_padding: Vec2::ZERO,
+            towards_sun: towards_sun.extend(0.0),
         }
     }
 
@@ -188,7 +189,7 @@ mod tests {
     #[test]
     fn clip_space_puts_points_where_the_pinhole_does() {
         let clip = clip_from_camera(Vec2::new(500.0, 510.0), Vec2::new(320.0, 240.0), Vec2::new(640.0, 480.0), 0.1);
-        let point = clip.project_point3(glam::Vec3::new(0.4, -0.3, 2.0));
+        let point = clip.project_point3(Vec3::new(0.4, -0.3, 2.0));
         let pixel = Vec2::new((point.x + 1.0) * 320.0, (1.0 - point.y) * 240.0);
         assert!((pixel - Vec2::new(420.0, 163.5)).length() < 1e-3, "{pixel}");
         assert!((point.z - 0.05).abs() < 1e-6, "near over z");

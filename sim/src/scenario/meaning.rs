@@ -5,6 +5,7 @@ use nalgebra::Point2;
 
 use super::{Fault, Floor, Robot, Scenario, WorldName};
 use crate::kinect::Imaging;
+use crate::light::LightState;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
 use crate::world::bake::{Effort, bake_cached, cache_folder};
@@ -12,7 +13,7 @@ use crate::world::ground::Ground;
 use crate::world::laboratory::laboratory;
 use crate::world::rays::Rays;
 use crate::world::yard::yard;
-use crate::world::{Brightness, Object, World};
+use crate::world::{Object, World};
 
 /// A world is the same in each run: a scenario's seed moves noise and slip, not furniture.
 const WORLD_SEED: u64 = 1;
@@ -55,9 +56,11 @@ impl Robot {
     }
 }
 
-impl From<super::Light> for Brightness {
+impl From<super::Light> for LightState {
     fn from(light: super::Light) -> Self {
-        Self { electric: f32::from(u8::from(light.lamps)), daylight: light.daylight_scale as f32 }
+        let lamps = [("ceiling", f32::from(u8::from(light.lamps)))];
+        let lamps = lamps.into_iter().map(|(group, brightness)| (group.to_owned(), brightness)).collect();
+        Self { lamps, windows: [light.daylight_scale as f32; 4], ..Self::default() }
     }
 }
 
@@ -69,12 +72,12 @@ impl From<super::Kinect> for Imaging {
 }
 
 impl Scenario {
-    /// The world under the scenario's light. That takes half a minute once for a world, and is kept in the user's
-    /// [`cache_folder`]. `progress` is told the share done, 0 to 1, from any thread.
+    /// The world, with the ways that light takes in it. That takes half a minute once for a world, and is kept in the
+    /// user's [`cache_folder`]. `progress` is told the share done, 0 to 1, from any thread.
     pub fn lit_world(&self, progress: &(dyn Fn(f32) + Sync)) -> World {
         let mut world = self.world.name.build();
         // Where nothing can be kept the light is computed each time, and is the same.
-        let _ = bake_cached(&mut world, &Effort::default(), self.light.into(), &cache_folder(), progress);
+        let _ = bake_cached(&mut world, &Effort::default(), &cache_folder(), progress);
         world
     }
 

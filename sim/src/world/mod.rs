@@ -13,14 +13,21 @@ pub mod rays;
 pub mod refine;
 mod scene;
 pub mod shape;
+mod sun_directions;
+pub mod transfer;
 pub mod yard;
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use crate::light::Bands;
 use ground::Ground;
+use transfer::Transfer;
 
 /// Edge of every texture, texels.
 pub const TEXTURE_SIZE: usize = 512;
 
-/// A place, ready to be rendered and collided with. Nothing in it moves.
+/// A place, ready to be rendered and collided with. Nothing in it moves. Empty by default.
 #[derive(Clone, Debug, Default)]
 pub struct World {
     /// For readers.
@@ -33,6 +40,10 @@ pub struct World {
     pub lamps: Vec<Lamp>,
     /// What one drives on.
     pub ground: Ground,
+    /// Whether it lies under the open sky: what looks past all objects sees the sky, and the sun shines in.
+    pub open_sky: bool,
+    /// How light gets from each source to each vertex. Empty until [baked](bake::bake).
+    pub transfer: Arc<Transfer>,
 }
 
 /// A thing of one material. Large ones are cut up (a room's wall, not the building's), so that a view can leave out
@@ -58,9 +69,9 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates; they wrap, (0, 0) is the texture's first row's left corner.
     pub uvs: Vec<[f32; 2]>,
-    /// Irradiance from all lamps, direct and indirect, on the vertex: R, G, B in lux, then 830 nm in W m⁻² nm⁻¹.
-    /// Empty until baked.
-    pub irradiance: Vec<[f32; 4]>,
+    /// Irradiance on the vertex that is there whatever shines, set by hand for small worlds; empty for none. What lamps
+    /// and sky bring comes on top: see [`World::transfer`].
+    pub irradiance: Vec<Bands>,
     /// Indices of corners.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -84,43 +95,19 @@ pub struct Lamp {
     /// From the middle to the middle of one edge, and of the edge beside it; it shines along their cross product.
     pub half_edges: [[f32; 3]; 2],
     /// Luminous exitance by channel, lux: R, G, B; then radiant exitance at 830 nm, W m⁻² nm⁻¹. At full brightness.
-    pub exitance: [f32; 4],
-    /// What it shines with.
-    pub source: LightSource,
+    /// [`LampKind`](crate::light::LampKind) knows it for common lamps.
+    pub exitance: Bands,
+    /// The lamps of a group are switched and dimmed together: "ceiling", "street", or [`WINDOWS`].
+    pub group: String,
 }
 
-/// What lamps are switched and dimmed by, all of one source together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightSource {
-    /// The mains.
-    Electric,
-    /// The sky.
-    Daylight,
-}
+/// The group of all panels that stand for windows: they let in what the sky has.
+pub const WINDOWS: &str = "windows";
 
-impl LightSource {
-    /// All there are.
-    pub const ALL: [Self; 2] = [Self::Electric, Self::Daylight];
-}
-
-/// How bright the lamps of each source are, in multiples of their exitance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Brightness {
-    /// Of those on the mains.
-    pub electric: f32,
-    /// Of windows.
-    pub daylight: f32,
-}
-
-impl Brightness {
-    /// As the world has them.
-    pub const FULL: Self = Self { electric: 1.0, daylight: 1.0 };
-
-    /// Of one source.
-    pub fn of(&self, source: LightSource) -> f32 {
-        match source {
-            LightSource::Electric => self.electric,
-            LightSource::Daylight => self.daylight,
-        }
+impl World {
+    /// The groups that its lamps belong to, in alphabetical order.
+    pub fn lamp_groups(&self) -> Vec<&str> {
+        let groups: BTreeSet<&str> = self.lamps.iter().map(|lamp| lamp.group.as_str()).collect();
+        groups.into_iter().collect()
     }
 }

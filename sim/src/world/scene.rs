@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{Vec3, vec3};
 
-use super::ground::Ground;
 use super::material::{self, Surface};
 use super::shape::{Mapping, Place, cuts_no_longer_than};
 use super::{Lamp, Mesh, Object, World};
@@ -65,7 +64,7 @@ impl Scene {
             objects: self.objects,
             materials: material::materials(&surfaces, seed),
             lamps: self.lamps,
-            ground: Ground::default(),
+            ..World::default()
         }
     }
 }

@@ -3,17 +3,23 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use half::f16;
 use sha2::{Digest, Sha256};
 
-use super::{Bands, BySource, Effort, by_source, write};
+use super::{Effort, transfer};
+use crate::world::World;
 use crate::world::material::mean_albedo;
-use crate::world::{Brightness, LightSource, World};
+use crate::world::transfer::{Share, Transfer};
 
 /// First bytes of a file. Raise the digit when the computation changes: it is part of the hash.
-const MAGIC: &[u8; 8] = b"SUNBAKE2";
+const MAGIC: &[u8; 8] = b"SUNBAKE3";
 /// Bytes of a SHA-256.
 const HASH: usize = 32;
+/// Bytes of what scales the channels of one source's light, and of that light on a vertex.
+const SCALE: usize = 4 * size_of::<f32>();
+const VERTEX: usize = 4 * size_of::<f16>();
 
 /// Where the light came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,31 +38,26 @@ pub fn cache_folder() -> PathBuf {
     set("XDG_CACHE_HOME").or_else(in_home).unwrap_or_else(std::env::temp_dir).join("sunblind")
 }
 
-/// As [`bake`](super::bake), unless `folder` has the light already, of whatever brightness. A damaged or foreign file is
-/// computed anew and replaced.
+/// As [`bake`](super::bake), unless `folder` has the light already. A damaged or foreign file is computed anew and
+/// replaced.
 ///
 /// # Errors
 /// If the folder or file cannot be written; the world has its light all the same.
 pub fn bake_cached(
     world: &mut World,
     effort: &Effort,
-    brightness: Brightness,
     folder: &Path,
     progress: &(dyn Fn(f32) + Sync),
 ) -> io::Result<Origin> {
     let key = key(world, effort);
     let path = path(folder, &key);
-    let vertices = world.objects.iter().map(|object| object.mesh.positions.len()).sum();
-    if let Some(light) = fs::read(&path).ok().and_then(|bytes| decode(&bytes, &key, vertices)) {
-        write(world, &light, brightness);
-        progress(1.0);
-        return Ok(Origin::Cache);
-    }
-    let light = by_source(world, effort, progress);
-    write(world, &light, brightness);
+    let known = fs::read(&path).ok().and_then(|bytes| decode(&bytes, &key, world));
+    let origin = if known.is_some() { Origin::Cache } else { Origin::Computed };
+    let light = known.unwrap_or_else(|| transfer(world, effort, progress));
+    let stored = if origin == Origin::Computed { store(&path, &encode(&key, &light)) } else { Ok(()) };
+    world.transfer = Arc::new(light);
     progress(1.0);
-    store(&path, &encode(&key, &light))?;
-    Ok(Origin::Computed)
+    stored.map(|()| origin)
 }
 
 fn path(folder: &Path, key: &[u8; HASH]) -> PathBuf {
@@ -64,11 +65,19 @@ fn path(folder: &Path, key: &[u8; HASH]) -> PathBuf {
     folder.join(format!("light-{name}.bin"))
 }
 
-/// SHA-256 over geometry, mean albedos, lamps and effort. Names and pictures do not matter.
+/// SHA-256 over geometry, mean albedos, lamps and effort. Names and pictures do not matter, but
+/// for which lamps are of one group.
 fn key(world: &World, effort: &Effort) -> [u8; HASH] {
     let mut hash = Sha256::new_with_prefix(MAGIC);
     let mut floats = |values: &[f32]| values.iter().for_each(|value| hash.update(value.to_le_bytes()));
-    floats(&[effort.rays as f32, effort.bounces as f32, effort.lamp_step, world.objects.len() as f32]);
+    let groups = world.lamp_groups();
+    floats(&[
+        f32::from(u8::from(world.open_sky)),
+        effort.rays as f32,
+        effort.bounces as f32,
+        effort.lamp_step,
+        world.objects.len() as f32,
+    ]);
     for material in &world.materials {
         floats(&mean_albedo(material));
     }
@@ -76,7 +85,8 @@ fn key(world: &World, effort: &Effort) -> [u8; HASH] {
         floats(lamp.half_edges.concat().as_slice());
         floats(&lamp.centre);
         floats(&lamp.exitance);
-        floats(&[f32::from(lamp.source as u8)]);
+        let group = groups.iter().position(|group| *group == lamp.group).unwrap_or_default();
+        floats(&[group as f32]);
     }
     for object in &world.objects {
         let mesh = &object.mesh;
@@ -90,29 +100,39 @@ fn key(world: &World, effort: &Effort) -> [u8; HASH] {
     hash.finalize().into()
 }
 
-/// Magic, key, little-endian floats source after source, their SHA-256.
-fn encode(key: &[u8; HASH], light: &BySource) -> Vec<u8> {
+/// Magic, key, source after source (scale, then half floats, all little-endian), their SHA-256.
+fn encode(key: &[u8; HASH], light: &Transfer) -> Vec<u8> {
     let mut bytes = [MAGIC.as_slice(), key].concat();
-    bytes.extend(light.iter().flatten().flatten().flat_map(|value| value.to_le_bytes()));
+    for share in &light.shares {
+        bytes.extend(share.scale.iter().flat_map(|scale| scale.to_le_bytes()));
+        bytes.extend(share.light.as_flattened().iter().flat_map(|light| light.to_le_bytes()));
+    }
     let sum = Sha256::digest(&bytes);
     bytes.extend_from_slice(&sum);
     bytes
 }
 
 /// `None` unless all of it is as [`encode`] left it.
-fn decode(bytes: &[u8], key: &[u8; HASH], vertices: usize) -> Option<BySource> {
+fn decode(bytes: &[u8], key: &[u8; HASH], world: &World) -> Option<Transfer> {
+    let vertices: usize = world.objects.iter().map(|object| object.mesh.positions.len()).sum();
+    let sources = Transfer::sources_of(world);
     let (content, sum) = bytes.split_at_checked(bytes.len().checked_sub(HASH)?)?;
-    let floats = content.strip_prefix(MAGIC.as_slice())?.strip_prefix(key.as_slice())?;
-    if Sha256::digest(content).as_slice() != sum
-        || floats.len() != LightSource::ALL.len() * vertices * size_of::<Bands>()
-    {
+    let light = content.strip_prefix(MAGIC.as_slice())?.strip_prefix(key.as_slice())?;
+    let size = SCALE + vertices * VERTEX;
+    if Sha256::digest(content).as_slice() != sum || light.len() != sources.len() * size {
         return None;
     }
-    let (floats, _) = floats.as_chunks::<4>();
-    let (light, _) = floats.as_chunks::<4>();
-    let mut sources =
-        light.chunks(vertices).map(|light| light.iter().map(|bands| bands.map(f32::from_le_bytes)).collect());
-    Some(std::array::from_fn(|_| sources.next().unwrap_or_default()))
+    let share = |bytes: &[u8]| {
+        let (scale, light) = bytes.split_at(SCALE);
+        let number = |at: usize| f32::from_le_bytes(std::array::from_fn(|byte| scale[4 * at + byte]));
+        let (halves, _) = light.as_chunks::<2>();
+        let (light, _) = halves.as_chunks::<4>();
+        Share {
+            scale: [0, 1, 2, 3].map(number),
+            light: light.iter().map(|bands| bands.map(f16::from_le_bytes)).collect(),
+        }
+    };
+    Some(Transfer { shares: light.chunks(size).map(share).collect(), sources })
 }
 
 /// Beside, then renamed, so that no reader finds half a file.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::Bands;
+use crate::light::Bands;
 use crate::world::Lamp;
 use crate::world::rays::Rays;
 
@@ -15,10 +15,12 @@ pub(super) const COVER_DEPTH: f64 = 0.02;
 /// The plastic number's reciprocals, 1/ρ and 1/ρ² with ρ³ = ρ + 1: Roberts' R2 sequence fills the square evenly.
 const R2: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
 
-/// The triangles that a point's rays meet.
+/// The triangles that a point's rays meet, and the sky.
 pub(super) struct Gathered {
     triangles: Box<[u32]>,
     from_behind: u32,
+    /// Sums over the rays that meet nothing above the horizon: of 1, of the sine of their elevation.
+    sky: [f64; 2],
 }
 
 impl Gathered {
@@ -26,7 +28,7 @@ impl Gathered {
     /// a surface, where noise would be seen.
     pub fn cast(rays: &Rays, lamps: &[Lamp], at: DVec3, normal: DVec3, count: u32) -> Self {
         let (across, beside) = normal.any_orthonormal_pair();
-        let mut from_behind = 0;
+        let (mut from_behind, mut sky) = (0, [0.0; 2]);
         let triangles = (0..count)
             .map(|index| {
                 let [u, v] = R2.map(|step| (0.5 + step * f64::from(index + 1)).fract());
@@ -38,16 +40,25 @@ impl Gathered {
                         NOTHING
                     }
                     Some(hit) if !lamps.iter().any(|lamp| hides(lamp, at, direction, hit.distance)) => hit.triangle,
+                    None if direction.z > 0.0 => {
+                        sky = [sky[0] + 1.0, sky[1] + direction.z];
+                        NOTHING
+                    }
                     _ => NOTHING,
                 }
             })
             .collect();
-        Self { triangles, from_behind }
+        Self { triangles, from_behind, sky }
     }
 
     /// Whether the point lies inside a body, or behind a surface that has one side only.
     pub fn buried(&self) -> bool {
         self.from_behind as f32 > BURIED_SHARE * self.triangles.len() as f32
+    }
+
+    /// Irradiance from a sky of luminance 1, and from one whose luminance is the sine of the elevation.
+    pub fn sky(&self) -> [f32; 2] {
+        self.sky.map(|sum| (std::f64::consts::PI * sum / self.triangles.len() as f64) as f32)
     }
 
     /// Irradiance from what is seen, given each triangle's radiosity.

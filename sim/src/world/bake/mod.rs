@@ -1,30 +1,28 @@
-//! Light, computed once and kept at the vertices: from each lamp with soft shadows, then from surface to surface.
+//! Light, computed once and kept at the vertices: from each group of lamps with soft shadows, from the open sky, from
+//! sunlit surfaces; then from surface to surface.
 //!
 //! Diffuse surfaces only, so irradiance says all. What a lamp sheds directly is summed over points on its panel; what
-//! comes from other surfaces is gathered along cosine-weighted rays, which are cast once and serve every bounce.
+//! comes from other surfaces and from the sky is gathered along cosine-weighted rays, which are cast once and serve every
+//! source and every bounce.
 
 mod cache;
 mod gather;
 mod surface;
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::rays::Rays;
-use super::{Brightness, Lamp, LightSource, World};
+use super::transfer::{Share, Source, Transfer};
+use super::{Lamp, World};
+use crate::light::{Bands, each};
 use gather::Gathered;
 use surface::{Points, buried_neighbours};
 
 pub use cache::{Origin, bake_cached, cache_folder};
-
-/// A quantity in the four channels: R, G, B, 830 nm.
-type Bands = [f32; 4];
-
-/// The irradiance on every vertex, in the objects' order, by each of [`LightSource::ALL`] alone at full brightness.
-/// Light adds up, so any brightness is had from it.
-type BySource = [Vec<Bands>; LightSource::ALL.len()];
 
 /// How much work the light is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,37 +42,70 @@ impl Default for Effort {
     }
 }
 
-/// Fills in every vertex's irradiance. Equal bytes whatever the number of threads. `progress` is told the share done,
-/// 0 to 1, from any thread.
-pub fn bake(world: &mut World, effort: &Effort, brightness: Brightness, progress: &(dyn Fn(f32) + Sync)) {
-    let light = by_source(world, effort, progress);
-    write(world, &light, brightness);
+/// Fills in the world's [`Transfer`]. Equal bytes whatever the number of threads. `progress` is told the share done, 0 to
+/// 1, from any thread.
+pub fn bake(world: &mut World, effort: &Effort, progress: &(dyn Fn(f32) + Sync)) {
+    world.transfer = Arc::new(transfer(world, effort, progress));
     progress(1.0);
 }
 
-fn by_source(world: &World, effort: &Effort, progress: &(dyn Fn(f32) + Sync)) -> BySource {
-    let Some(rays) = Rays::new(&world.objects) else { return BySource::default() };
-    let points = Points::of(world);
+/// What a vertex gets straight from the sources, each of which [`Direct::of`] knows.
+struct Direct {
+    /// By group, at full brightness.
+    lamps: Vec<Bands>,
+    /// Of the sky's level and rise; 0 in worlds without a sky.
+    sky: [f32; 2],
+    /// Of each sun, facing it being 1.
+    suns: Vec<f32>,
+}
+
+impl Direct {
+    fn of(&self, source: &Source, groups: &[&str]) -> Bands {
+        match source {
+            Source::Lamps(name) => groups.iter().position(|group| group == name).map_or([0.0; 4], |at| self.lamps[at]),
+            Source::SkyLevel => [self.sky[0]; 4],
+            Source::SkyRise => [self.sky[1]; 4],
+            Source::Sun(direction) => [self.suns[*direction]; 4],
+        }
+    }
+}
+
+/// Of the work, what the rays take; the rest is for the bounces. Measured, about.
+const CASTING: f32 = 0.9;
+
+fn transfer(world: &World, effort: &Effort, progress: &(dyn Fn(f32) + Sync)) -> Transfer {
+    let Some(rays) = Rays::new(&world.objects) else { return Transfer::default() };
+    let (points, sources, groups) = (Points::of(world), Transfer::sources_of(world), world.lamp_groups());
+    let suns = if world.open_sky { Transfer::sun_directions() } else { Vec::new() };
     let done = AtomicUsize::new(0);
-    let (direct, gathered): (Vec<[Bands; 2]>, Vec<Gathered>) = (0..points.len())
+    let (direct, gathered): (Vec<Direct>, Vec<Gathered>) = (0..points.len())
         .into_par_iter()
         .map(|vertex| {
             let (at, normal) = points.sample(vertex);
             let gathered = Gathered::cast(&rays, &world.lamps, at, normal, effort.rays);
-            let direct = LightSource::ALL.map(|source| match gathered.buried() {
-                true => [0.0; 4],
-                false => direct(&rays, lamps_of(world, source), at, normal, effort),
-            });
+            let open = !gathered.buried();
+            let of_group = |group: &&str| match open {
+                true => from_lamps(&rays, lamps_of(world, group), at, normal, effort),
+                false => [0.0; 4],
+            };
+            let direct = Direct {
+                lamps: groups.iter().map(of_group).collect(),
+                sky: if world.open_sky && open { gathered.sky() } else { [0.0; 2] },
+                suns: suns
+                    .iter()
+                    .map(|sun| if open { from_sun(&rays, sun.as_dvec3(), at, normal) } else { 0.0 })
+                    .collect(),
+            };
             let count = 1 + done.fetch_add(1, Ordering::Relaxed);
             if count.is_multiple_of(256) {
-                progress(count as f32 / points.len() as f32);
+                progress(CASTING * count as f32 / points.len() as f32);
             }
             (direct, gathered)
         })
         .unzip();
     let refills = buried_neighbours(&points, &gathered);
-    LightSource::ALL.map(|source| {
-        let direct: Vec<Bands> = direct.iter().map(|by_source| by_source[source as usize]).collect();
+    let shares = sources.iter().enumerate().map(|(index, source)| {
+        let direct: Vec<Bands> = direct.iter().map(|direct| direct.of(source, &groups)).collect();
         let mut light = direct.clone();
         for _ in 0..effort.bounces {
             refill(&mut light, &refills);
@@ -85,22 +116,42 @@ fn by_source(world: &World, effort: &Effort, progress: &(dyn Fn(f32) + Sync)) ->
                 .map(|(&direct, gathered)| add(direct, gathered.mean(&radiosity)))
                 .collect();
         }
+        if let Source::Sun(_) = source {
+            // Straight from the sun comes what the renderer adds, with sharp shadows.
+            light.iter_mut().zip(&direct).for_each(|(light, direct)| *light = each(|band| light[band] - direct[band]));
+        }
         refill(&mut light, &refills);
-        points.add_glow(&mut light, lamps_of(world, source));
-        light
-    })
+        if let Source::Lamps(group) = source {
+            points.add_glow(&mut light, lamps_of(world, group));
+        }
+        progress(CASTING + (1.0 - CASTING) * (index + 1) as f32 / sources.len() as f32);
+        Share::of(&light)
+    });
+    Transfer { shares: shares.collect(), sources }
 }
 
-fn lamps_of(world: &World, source: LightSource) -> impl Iterator<Item = &Lamp> + Clone {
-    world.lamps.iter().filter(move |lamp| lamp.source == source)
+fn lamps_of<'a>(world: &'a World, group: &'a str) -> impl Iterator<Item = &'a Lamp> + Clone {
+    world.lamps.iter().filter(move |lamp| lamp.group == group)
 }
 
 fn add(a: Bands, b: Bands) -> Bands {
     std::array::from_fn(|band| a[band] + b[band])
 }
 
+/// What a point gets of a sun that gives 1 to a surface facing it.
+fn from_sun(rays: &Rays, towards: DVec3, at: DVec3, normal: DVec3) -> f32 {
+    let facing = normal.dot(towards);
+    if facing > 0.0 && rays.first(at, towards, f64::MAX).is_none() { facing as f32 } else { 0.0 }
+}
+
 /// Irradiance on a point straight from the lamps, each a grid of small discs.
-fn direct<'a>(rays: &Rays, lamps: impl Iterator<Item = &'a Lamp>, at: DVec3, normal: DVec3, effort: &Effort) -> Bands {
+fn from_lamps<'a>(
+    rays: &Rays,
+    lamps: impl Iterator<Item = &'a Lamp>,
+    at: DVec3,
+    normal: DVec3,
+    effort: &Effort,
+) -> Bands {
     let mut sum = [0.0; 4];
     for lamp in lamps {
         let [centre, a, b] = [lamp.centre, lamp.half_edges[0], lamp.half_edges[1]].map(|v| Vec3::from(v).as_dvec3());
@@ -133,20 +184,6 @@ fn refill(light: &mut [Bands], refills: &[(usize, Vec<usize>)]) {
     for (vertex, neighbours) in refills {
         let sum = neighbours.iter().fold([0.0; 4], |sum, &neighbour| add(sum, light[neighbour]));
         light[*vertex] = sum.map(|sum| sum / neighbours.len() as f32);
-    }
-}
-
-/// Hands the irradiance of all vertices to the meshes.
-fn write(world: &mut World, light: &BySource, brightness: Brightness) {
-    let shares = LightSource::ALL.map(|source| brightness.of(source));
-    let mut vertex = 0;
-    for object in &mut world.objects {
-        let count = object.mesh.positions.len();
-        let sum = |vertex: usize| -> Bands {
-            std::array::from_fn(|band| light.iter().zip(shares).map(|(light, share)| share * light[vertex][band]).sum())
-        };
-        object.mesh.irradiance = (vertex..vertex + count).map(sum).collect();
-        vertex += count;
     }
 }
 

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use glam::{DVec3, Vec3};
 
+use super::add;
 use super::gather::{COVER_DEPTH, Gathered};
-use super::{Bands, add};
+use crate::light::Bands;
 use crate::world::material::mean_albedo;
 use crate::world::{Lamp, World};
 

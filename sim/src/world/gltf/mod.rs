@@ -64,7 +64,7 @@ fn build(file: &Path) -> Result<World, String> {
     }
     check_size(&objects)?;
     let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    Ok(World { name, objects, materials, ..World::default() })
+    Ok(World { name, objects, materials, open_sky: true, ..World::default() })
 }
 
 /// What a node may say in its extras.

@@ -6,7 +6,7 @@ use super::CEILING;
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Piece, Scene};
 use crate::world::shape::{Place, cuts_no_longer_than};
-use crate::world::{Lamp, LightSource, Mesh};
+use crate::world::{Lamp, Mesh, WINDOWS};
 
 /// Exitance of a ceiling panel's cover, lux. A LED panel of 0.72 m² and some 5700 lm. 830 nm: none, it is a white LED.
 const PANEL: [f32; 4] = [8200.0, 8000.0, 7650.0, 0.0];
@@ -158,7 +158,7 @@ fn daylight(
         centre: centre.to_array(),
         half_edges: [along.to_array(), [0.0, 0.0, 0.5 * (top - bottom)]],
         exitance,
-        source: LightSource::Daylight,
+        group: WINDOWS.to_owned(),
     });
 }
 
@@ -182,7 +182,7 @@ pub(super) fn outlook(scene: &mut Scene, name: &'static str, from: [f32; 2], to:
         centre: place.point(vec3(0.5 * length, -2.0, 0.5 * (low + high))).to_array(),
         half_edges: [[0.0, 0.0, 0.5 * (high - low)], along.to_array()],
         exitance: OUTDOORS,
-        source: LightSource::Daylight,
+        group: WINDOWS.to_owned(),
     });
 }
 
@@ -214,7 +214,7 @@ pub(super) fn panel(scene: &mut Scene, name: &str, [x, y]: [f32; 2], size: [f32;
         centre: [x, y, CEILING - 0.036],
         half_edges: [[0.0, half.y, 0.0], [half.x, 0.0, 0.0]],
         exitance: PANEL,
-        source: LightSource::Electric,
+        group: "ceiling".to_owned(),
     });
 }
 

@@ -44,6 +44,7 @@ pub fn yard(seed: u64) -> World {
     build(&mut scene, seed);
     let mut world = scene.finish("yard", seed);
     world.ground = land::ground();
+    world.open_sky = true;
     world
 }
 

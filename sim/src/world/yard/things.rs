@@ -7,7 +7,7 @@ use glam::{Vec3, vec3};
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Piece, Scene};
 use crate::world::shape::Place;
-use crate::world::{Lamp, LightSource, Mesh};
+use crate::world::{Lamp, Mesh};
 
 /// Exitance of a street lamp's glass, lux: a 70 W sodium lamp, some 4500 lm out of 0.09 m², at 2000 K in colour. 830 nm:
 /// its lines at 818 and 819.5 nm, as much as of halogen: 0.031 W m⁻² nm⁻¹ per klx (a guess).
@@ -213,7 +213,7 @@ pub(super) fn street_lamp(scene: &mut Scene, name: &str, place: Place) {
         centre: place.point(vec3(0.0, -reach, height - 0.006)).to_array(),
         half_edges: [along(vec3(0.0, 0.225, 0.0)), along(vec3(0.1, 0.0, 0.0))].map(|edge| edge.to_array()),
         exitance: SODIUM,
-        source: LightSource::Electric,
+        group: "street".to_owned(),
     });
 }
 

@@ -1,8 +1,0 @@
-// How far the projector's light reaches: depth only, seen from the projector.
-
-@group(0) @binding(0) var<uniform> clip_from_world: mat4x4f;
-
-@vertex
-fn projector_vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
-    return clip_from_world * vec4f(position, 1.0);
-}
