@@ -9,9 +9,10 @@ struct ColourSensor {
     // Electrons squared; and 1 with photon noise, 0 without.
     read_variance: f32,
     shot_noise: f32,
-    // Share of full scale for an electron, gain included.
-    level_per_electron: f32,
     noise_key: u32,
+    // Share of full scale for an electron in R, G, B, gains included.
+    level_per_electron: vec3f,
+    padding: u32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;

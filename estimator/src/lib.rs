@@ -3,7 +3,7 @@
 //! [`Localizer::handle`], estimates come out of [`Localizer::estimate`]; equal inputs give equal bytes.
 //!
 //! Rooms, bottom to top: [`time`], [`geometry`], [`image`], [`camera`], [`features`], [`structure`], [`motion`],
-//! [`measurement`] (the seam), [`odometry`], [`fusion`], [`guidance`], [`estimator`].
+//! [`measurement`] (the seam), [`odometry`], [`mode`], [`fusion`], [`guidance`], [`estimator`].
 
 pub mod camera;
 pub mod estimator;
@@ -13,6 +13,7 @@ pub mod geometry;
 pub mod guidance;
 pub mod image;
 pub mod measurement;
+pub mod mode;
 pub mod motion;
 pub mod odometry;
 pub mod params;

@@ -2,19 +2,16 @@
 //!
 //! `cargo bench -p sunblind-sim --bench render [FRAMES]`
 
-#[path = "../tests/scene/mod.rs"]
-mod scene;
-
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use glam::DAffine3;
-use scene::{Light, looking_north, room_world};
 use sunblind_sim::kinect::calibration::Calibration;
 use sunblind_sim::kinect::matcher::Matcher;
 use sunblind_sim::kinect::projector::Projector;
 use sunblind_sim::kinect::{Imaging, Kinect};
 use sunblind_sim::render::Sweep;
+use sunblind_sim::validation::scene::{Light, looking_north, room_world};
 
 fn main() {
     let frames = std::env::args().filter_map(|argument| argument.parse().ok()).next().unwrap_or(30);

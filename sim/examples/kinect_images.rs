@@ -1,14 +1,11 @@
 //! Writes what a Kinect sees of a small room to PNG files: `kinect_images FOLDER [KILOLUX of sun]`.
 
-#[path = "../tests/scene/mod.rs"]
-mod scene;
-
 use std::path::PathBuf;
 
 use image::{GrayImage, Luma, Rgb};
-use scene::{Light, looking_north, room_world};
 use sunblind_sim::kinect::{Imaging, Kinect, calibration::Calibration, matcher::NO_DEPTH};
 use sunblind_sim::render::Sweep;
+use sunblind_sim::validation::scene::{Light, looking_north, room_world};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);

@@ -5,7 +5,7 @@
 //! What is simulated: `scenario` says what, `simulator` is that as hardware would be. In it `world` is the place, `robot`
 //! the device, `physics` moves the one through the other (the only room that names the physics engine), `render` makes
 //! images (the only one that names wgpu), `kinect` makes of them what the device gives out; `random` gives every effect
-//! its own stream. `textured_room` makes a small recording with known truth without any of them.
+//! its own stream. `validation` holds the device against published figures. `textured_room` makes a small recording with known truth without any of them.
 
 pub mod cli;
 pub mod evaluation;
@@ -24,4 +24,5 @@ pub mod scenario;
 pub mod simulator;
 pub mod textured_room;
 mod truth;
+pub mod validation;
 pub mod world;

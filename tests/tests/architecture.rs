@@ -11,6 +11,11 @@ fn root() -> PathBuf {
 
 /// Every Rust source below `folder`, with its text.
 fn sources(folder: &str) -> BTreeMap<PathBuf, String> {
+    texts(folder, "rs")
+}
+
+/// Every file below `folder` with an extension, with its text.
+fn texts(folder: &str, wanted: &str) -> BTreeMap<PathBuf, String> {
     let mut found = BTreeMap::new();
     let mut folders = vec![root().join(folder)];
     while let Some(folder) = folders.pop() {
@@ -18,7 +23,7 @@ fn sources(folder: &str) -> BTreeMap<PathBuf, String> {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
+            } else if path.extension().is_some_and(|extension| extension == wanted) {
                 let text = fs::read_to_string(&path).unwrap();
                 found.insert(path, text);
             }
@@ -125,6 +130,39 @@ fn only_this_room_says(room: &str, words: &[&str]) {
     assert!(!mentions(&within, words).is_empty(), "looked in the wrong place: {room} says none of {words:?}");
     let found = mentions(&outside, words);
     assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn physics_decides_what_the_kinect_sees_and_not_a_word_for_the_light() {
+    let words = [
+        "outdoor",
+        "indoor",
+        "sun",
+        "daylight",
+        "night",
+        "noon",
+        "shade",
+        "cloud",
+        "overcast",
+        "hour",
+        "time_of_day",
+        "elevation",
+        "klx",
+        "kilolux",
+        "weather",
+    ];
+    let mut found = mentions(&sources("sim/src/kinect"), &words);
+    found.extend(mentions(&texts("shaders", "wgsl"), &words));
+    // The name of the product is no word for the light; nor is that of an hour's drift in a test.
+    found.retain(|line| !line.contains("sunblind") && !line.contains("fn an_hour"));
+    assert!(found.is_empty(), "{found:#?}");
+    // No branch on how bright it is: exposures follow what the images hold, and only they compare brightness.
+    let mut deciding = sources("sim/src/kinect");
+    deciding.retain(|path, _| !path.ends_with("exposure.rs") && !path.ends_with("metering.rs"));
+    let found = mentions(&deciding, &["if lux", "if brightness", "if ambient", "if light"]);
+    let in_shaders =
+        mentions(&texts("shaders", "wgsl"), &["if lux", "if ambient", "if light", "if luminance", "if radiance"]);
+    assert!(found.is_empty() && in_shaders.is_empty(), "{found:#?} {in_shaders:#?}");
 }
 
 #[test]

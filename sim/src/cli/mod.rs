@@ -15,6 +15,7 @@ mod scenario_args;
 mod schema;
 mod stage;
 mod table;
+mod validate;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -66,6 +67,7 @@ enum Command {
     Replay(replay::Replay),
     Run(run::Run),
     Schema(schema::Schema),
+    Validate(validate::Validate),
 }
 
 /// Why a command failed: something about what it was given, or nothing to render with.
@@ -93,6 +95,8 @@ enum Failure {
     Override(#[from] overrides::OverrideError),
     #[error(transparent)]
     Output(#[from] FolderError),
+    #[error("{}: can't be written: {source}", file.display())]
+    Unwritable { file: std::path::PathBuf, source: io::Error },
     #[error("--at {at}: the path ends after {end:.2} s; give a smaller number of seconds")]
     BeyondPath { at: f64, end: f64 },
 }
@@ -119,6 +123,7 @@ pub fn run() -> ExitCode {
         Command::Replay(replay) => replay.run(),
         Command::Run(run) => run.run(),
         Command::Schema(schema) => schema.run(),
+        Command::Validate(validate) => validate.run(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -12,7 +12,6 @@ use sunblind_estimator::image::Image;
 use super::contact_sheet::{self, Row};
 use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer, stage};
-use crate::kinect::calibration::Calibration;
 use crate::kinect::{FRAME_INTERVAL, Kinect};
 use crate::new_folder::{FolderError, Kind, NewFolder};
 use crate::render::{Adapter, RenderError, Sweep};
@@ -174,7 +173,7 @@ struct Seen {
 
 impl<'a> View<'a> {
     fn new(scenario: &'a Scenario, world: &World, robot: &RobotModel) -> Result<Self, RenderError> {
-        let calibration = Calibration::nominal();
+        let calibration = scenario.kinect.unit();
         let robot_from_infrared = robot.robot_from_camera * calibration.colour_from_infrared;
         let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
         let (ground, reach) = (world.ground.clone(), robot.wheelbase() / 2.0);

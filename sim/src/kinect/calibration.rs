@@ -3,16 +3,25 @@
 //! The device's frame is its infrared camera's: x right, y down, z forward. Seen from there the colour camera sits
 //! 25 mm to the right and the projector 75 mm to the right, so shadows fall to the left of near things.
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rand::RngExt;
+use rand_distr::{Distribution, StandardNormal};
 use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, Rig};
 
 use super::matcher::NO_DEPTH;
+use crate::random::stream;
 
 /// Raw disparity of a surface at the reference distance: z = 8·b·f/(offset − raw) with the published offset of 1090,
 /// 75 mm, 580 px and 1.20 m.
 pub const REFERENCE_RAW: f64 = 800.0;
 /// Raw steps in a pixel of disparity (ROS `kinect_calibration/technical`).
 pub const STEPS_PER_PIXEL: f64 = 8.0;
+
+/// How far units differ, as published calibrations of a dozen of them do: focal lengths, share; centres, pixels; turn of
+/// the colour camera against the infrared one, degrees.
+const FOCAL_SPREAD: f64 = 0.015;
+const CENTRE_SPREAD: f64 = 12.0;
+const TURN_SPREAD_DEG: f64 = 1.0;
 
 /// The true optics of one unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +63,23 @@ impl Calibration {
         }
     }
 
+    /// The unit with a number, one of those that differ from the nominal one as real units do, evenly within ±1.5 % of
+    /// the focal lengths, ±12 px of the centres and 1° between the cameras.
+    pub fn drawn(number: u64) -> Self {
+        let mut random = stream(number, "kinect unit", 0);
+        let mut within = |reach: f64| random.random_range(-reach..=reach);
+        let mut unit = Self::nominal();
+        for camera in [&mut unit.infrared, &mut unit.colour] {
+            let stretch = 1.0 + within(FOCAL_SPREAD);
+            (camera.fx, camera.fy) = (camera.fx * stretch, camera.fy * stretch);
+            (camera.cx, camera.cy) = (camera.cx + within(CENTRE_SPREAD), camera.cy + within(CENTRE_SPREAD));
+        }
+        let axis = Vector3::from_fn(|_, _| within(1.0));
+        let turn = axis.cap_magnitude(1.0) * TURN_SPREAD_DEG.to_radians();
+        unit.colour_from_infrared.rotation = UnitQuaternion::from_scaled_axis(turn);
+        unit
+    }
+
     /// What this unit's raw values mean.
     pub fn depth_encoding(&self) -> DepthEncoding {
         let reference_disparity = self.baseline * self.infrared.fx / self.reference_distance;
@@ -81,6 +107,31 @@ impl Calibration {
     }
 }
 
+/// What a calibration leaves: how far what is believed of a unit is from how it is built. Standard deviations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// Of the cameras' centres along x and y, and of what their focal lengths move at the image's edge; pixels.
+    pub pixels: f64,
+    /// Of the turn between the cameras, about each axis; degrees.
+    pub degrees: f64,
+}
+
+impl Residual {
+    /// What a calibration with this residual believes instead of `rig`; the seed draws which.
+    pub fn of(&self, mut rig: Rig, seed: u64) -> Rig {
+        let mut random = stream(seed, "calibration residual", 0);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        for camera in [&mut rig.depth.model, &mut rig.colour] {
+            let stretch = 1.0 + self.pixels * normal() / (camera.width as f64 / 2.0);
+            (camera.fx, camera.fy) = (camera.fx * stretch, camera.fy * stretch);
+            (camera.cx, camera.cy) = (camera.cx + self.pixels * normal(), camera.cy + self.pixels * normal());
+        }
+        let turn = Vector3::from_fn(|_, _| normal()) * self.degrees.to_radians();
+        rig.colour_from_depth.rotation = UnitQuaternion::from_scaled_axis(turn) * rig.colour_from_depth.rotation;
+        rig
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,6 +154,46 @@ mod tests {
         }
         for nothing in [0.0, 0.1, -1.0, f64::NAN] {
             assert_eq!(unit.raw_of(nothing), NO_DEPTH, "{nothing} m");
+        }
+    }
+
+    #[test]
+    fn units_differ_as_far_as_real_ones_and_no_further() {
+        let nominal = Calibration::nominal();
+        let units: Vec<_> = (0..200).map(Calibration::drawn).collect();
+        assert_eq!(units[7], Calibration::drawn(7));
+        let largest = |of: &dyn Fn(&Calibration) -> f64| units.iter().map(|unit| of(unit).abs()).fold(0.0, f64::max);
+        for (reach, off) in [
+            (0.015, largest(&|unit| unit.infrared.fx / 580.0 - 1.0)),
+            (0.015, largest(&|unit| unit.colour.fy / 525.0 - 1.0)),
+            (12.0, largest(&|unit| unit.infrared.cx - nominal.infrared.cx)),
+            (12.0, largest(&|unit| unit.colour.cy - nominal.colour.cy)),
+            (1.0, largest(&|unit| unit.colour_from_infrared.rotation.angle().to_degrees())),
+        ] {
+            assert!((0.9 * reach..=reach * (1.0 + 1e-9)).contains(&off), "{off} of {reach}");
+        }
+        assert!(units.iter().all(|unit| unit.rig(Isometry3::identity()).validate().is_ok()));
+    }
+
+    #[test]
+    fn a_residual_parts_belief_from_truth_by_its_size() {
+        let rig = Calibration::drawn(3).rig(Isometry3::identity());
+        let none = Residual { pixels: 0.0, degrees: 0.0 };
+        let close = |a: &Rig, b: &Rig| (a.colour_from_depth.rotation.angle_to(&b.colour_from_depth.rotation)) < 1e-9;
+        let same = none.of(rig.clone(), 1);
+        assert!(same.colour == rig.colour && same.depth == rig.depth && close(&same, &rig));
+        let residual = Residual { pixels: 0.1, degrees: 0.01 };
+        let mean_square = |of: &dyn Fn(&Rig) -> f64| {
+            (0..400).map(|seed| of(&residual.of(rig.clone(), seed)).powi(2)).sum::<f64>() / 400.0
+        };
+        let centre = mean_square(&|believed| believed.colour.cx - rig.colour.cx).sqrt();
+        let edge = mean_square(&|believed| 320.0 * (believed.depth.model.fx / rig.depth.model.fx - 1.0)).sqrt();
+        let turn = mean_square(&|believed| {
+            believed.colour_from_depth.rotation.angle_to(&rig.colour_from_depth.rotation).to_degrees()
+        });
+        let turn = (turn / 3.0).sqrt();
+        for (expected, found) in [(0.1, centre), (0.1, edge), (0.01, turn)] {
+            assert!((found / expected - 1.0).abs() < 0.15, "{found} where {expected} was expected");
         }
     }
 

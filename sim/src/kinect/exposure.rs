@@ -1,12 +1,18 @@
-//! Automatic exposure: from the last image to the next one's exposure time and gain.
+//! Automatic exposure: from the images to the next ones' exposure time and gain. It lags, and acts late.
+
+use std::collections::VecDeque;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::matcher::NO_DEPTH;
+use super::metering::STRIDE;
 use super::sensors::{Exposure, colour, infrared};
 
 /// Seconds in which a step in brightness is made up for but for 1/e. Estimate, 0.2 to 1.5 are plausible.
 const TIME_CONSTANT: f64 = 0.5;
-/// Mean of the colour image's linear light that is aimed at, of full scale: a grey card.
-const COLOUR_TARGET: f64 = 0.18;
+/// From an image to the first that heeds it, seconds: three frames of 30 Hz. Estimate, two to five are plausible.
+const DEAD_TIME: f64 = 0.1;
 /// Share of the infrared image's pixels that may exceed the target below; some 2 % are dots' peaks.
 const INFRARED_ABOVE: f64 = 0.02;
 /// Brightness aimed at for the brightest of the rest, of full scale. A guess, well below saturation.
@@ -15,42 +21,56 @@ const INFRARED_TARGET: f64 = 0.6;
 const LEAST_WITH_DEPTH: f64 = 0.05;
 /// Most that one frame's metering is believed, in either direction: saturation hides how much too bright it was.
 const LARGEST_CORRECTION: f64 = 8.0;
-/// Every how many pixels the image is looked at.
-const STRIDE: usize = 7;
 
-/// What may be changed in the dark and in the sun. Which of the two the device does is not known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What may be changed in the dark and in the sun. Which of them the device does is not known: users report that it is
+/// "useless above some 10 klx", and its driver's settings name a gain, but no exposure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum InfraredExposure {
-    /// Exposure time, then gain: the image stays usable in full sun.
+    /// Exposure time down to one row, then gain: the image stays usable in full sun.
     #[default]
-    TimeAndGain,
+    Free,
+    /// The same, but no shorter than 2 ms: concrete in full sun still fits, white paint does not.
+    LimitedExposure,
     /// Gain alone, at the longest exposure: the image saturates beyond some 10 klx of sun.
     GainOnly,
-    /// Neither, at the longest exposure and a gain of 1.
-    Fixed,
+}
+
+impl InfraredExposure {
+    /// Shortest exposure, seconds.
+    fn shortest(self) -> f64 {
+        match self {
+            Self::Free => infrared::SHORTEST,
+            // A guess: what it is for is said above.
+            Self::LimitedExposure => 0.002,
+            Self::GainOnly => infrared::LONGEST,
+        }
+    }
 }
 
 /// An exposure that follows the light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct AutoExposure {
     shortest: f64,
     longest: f64,
     highest_gain: f64,
     /// Exposure time × gain, seconds.
     product: f64,
+    /// What the last images ask for, and how long ago they were taken, seconds; the oldest first.
+    asked: VecDeque<(f64, f64)>,
 }
 
 impl AutoExposure {
     pub fn colour() -> Self {
-        let (shortest, longest) = (colour::SHORTEST, colour::LONGEST);
-        Self { shortest, longest, highest_gain: colour::HIGHEST_GAIN, product: longest }
+        Self::within(colour::SHORTEST, colour::LONGEST, colour::HIGHEST_GAIN)
     }
 
     pub fn infrared(policy: InfraredExposure) -> Self {
-        let longest = infrared::LONGEST;
-        let shortest = if policy == InfraredExposure::TimeAndGain { infrared::SHORTEST } else { longest };
-        let highest_gain = if policy == InfraredExposure::Fixed { 1.0 } else { infrared::HIGHEST_GAIN };
-        Self { shortest, longest, highest_gain, product: longest }
+        Self::within(policy.shortest(), infrared::LONGEST, infrared::HIGHEST_GAIN)
+    }
+
+    fn within(shortest: f64, longest: f64, highest_gain: f64) -> Self {
+        Self { shortest, longest, highest_gain, product: longest, asked: VecDeque::new() }
     }
 
     /// As long an exposure as there may be, then gain: least noise.
@@ -59,22 +79,37 @@ impl AutoExposure {
         Exposure { time, gain: (self.product / time).clamp(1.0, self.highest_gain) }
     }
 
-    /// Follows a metering, `elapsed` seconds after the last one; infinitely long: at once. `brightness` is what was
-    /// seen, relative to what was aimed at.
+    /// Follows the metering of an image that was taken with the exposure as it is; the next one comes `elapsed` seconds
+    /// later. `brightness` is what was seen, relative to what was aimed at.
     pub fn follow(&mut self, brightness: f64, elapsed: f64) {
-        let correction = brightness.recip().clamp(LARGEST_CORRECTION.recip(), LARGEST_CORRECTION);
-        let share = 1.0 - (-elapsed / TIME_CONSTANT).exp();
-        let product = self.product * correction.powf(share);
+        self.asked.push_back((self.asked_by(brightness), 0.0));
+        self.asked.iter_mut().for_each(|(_, age)| *age += elapsed);
+        // Half a millisecond: sums of intervals are not exact.
+        let is_heeded = |asked: Option<&(f64, f64)>| asked.is_some_and(|(_, age)| *age > DEAD_TIME - 5e-4);
+        while is_heeded(self.asked.get(1)) {
+            self.asked.pop_front();
+        }
+        if let Some((asked, _)) = self.asked.front().filter(|asked| is_heeded(Some(asked))) {
+            let share = 1.0 - (-elapsed / TIME_CONSTANT).exp();
+            self.set(self.product * (asked / self.product).powf(share));
+        }
+    }
+
+    /// Goes to what an image asks for at once, as if much time had passed. By what factor that was off.
+    pub fn settle(&mut self, brightness: f64) -> f64 {
+        let before = self.product;
+        self.asked.clear();
+        self.set(self.asked_by(brightness));
+        (self.product / before).max(before / self.product)
+    }
+
+    fn asked_by(&self, brightness: f64) -> f64 {
+        self.product * brightness.recip().clamp(LARGEST_CORRECTION.recip(), LARGEST_CORRECTION)
+    }
+
+    fn set(&mut self, product: f64) {
         self.product = product.clamp(self.shortest, self.longest * self.highest_gain);
     }
-}
-
-/// Mean light of a colour image, relative to the target.
-pub(super) fn colour_brightness(pixels: &[[u8; 3]]) -> f64 {
-    let linear = |encoded: u8| (f64::from(encoded) / 255.0).powf(2.2);
-    let luma = |&[red, green, blue]: &[u8; 3]| 0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue);
-    let sum: f64 = pixels.iter().step_by(STRIDE).map(luma).sum();
-    sum / pixels.len().div_ceil(STRIDE) as f64 / COLOUR_TARGET
 }
 
 /// Brightness of an infrared image but for its brightest pixels, relative to the target. Of the pixels that have depth,
@@ -97,19 +132,33 @@ mod tests {
 
     #[test]
     fn time_is_used_up_before_gain_and_both_have_ends() {
-        let mut exposure = AutoExposure::infrared(InfraredExposure::TimeAndGain);
+        let mut exposure = AutoExposure::infrared(InfraredExposure::Free);
         for _ in 0..20 {
-            exposure.follow(0.0, f64::INFINITY);
+            exposure.settle(0.0);
         }
         assert_eq!(exposure.exposure().time, infrared::LONGEST);
         assert!((exposure.exposure().gain - infrared::HIGHEST_GAIN).abs() < 1e-9);
-        exposure.follow(4.0, f64::INFINITY);
+        exposure.settle(4.0);
         assert_eq!(exposure.exposure().time, infrared::LONGEST);
         assert!((exposure.exposure().gain - infrared::HIGHEST_GAIN / 4.0).abs() < 1e-9);
         for _ in 0..20 {
-            exposure.follow(100.0, f64::INFINITY);
+            exposure.settle(100.0);
         }
         assert_eq!(exposure.exposure(), Exposure { time: infrared::SHORTEST, gain: 1.0 });
+    }
+
+    #[test]
+    fn policies_differ_in_how_short_an_exposure_may_be() {
+        let shortest = |policy| {
+            let mut exposure = AutoExposure::infrared(policy);
+            for _ in 0..20 {
+                exposure.settle(100.0);
+            }
+            exposure.exposure().time
+        };
+        assert_eq!(shortest(InfraredExposure::GainOnly), infrared::LONGEST);
+        assert_eq!(shortest(InfraredExposure::LimitedExposure), 0.002);
+        assert_eq!(shortest(InfraredExposure::Free), infrared::SHORTEST);
     }
 
     #[test]
@@ -122,14 +171,33 @@ mod tests {
         assert!(infrared_brightness(&numbers, &[NO_DEPTH; 3000]) > 1.5, "where nothing has depth, all of it counts");
     }
 
-    #[test]
-    fn a_step_is_followed_in_the_time_constant() {
+    /// Exposure products, relative to the first, of the images after the light has doubled.
+    fn after_doubling(interval: f64, images: usize) -> Vec<f64> {
         let mut exposure = AutoExposure::colour();
         let before = exposure.exposure().time;
-        for _ in 0..15 {
-            exposure.follow(2.0 * exposure.exposure().time / before, 1.0 / 30.0);
-        }
-        let rest = (exposure.exposure().time / before).log2() + 1.0;
+        let image = |_| {
+            let product = exposure.exposure().time / before;
+            exposure.follow(2.0 * product, interval);
+            product
+        };
+        (0..images).map(image).collect()
+    }
+
+    #[test]
+    fn a_step_is_heeded_late_and_followed_in_the_time_constant() {
+        let products = after_doubling(1.0 / 30.0, 200);
+        assert_eq!(products[..3], [1.0; 3], "two to five frames pass before anything happens");
+        assert!(products[3] < 1.0);
+        // What is left of the step, in logarithms of light, when the time constant is over.
+        let rest = products[2 + 15].log2() + 1.0;
         assert!((rest - (-1.0_f64).exp()).abs() < 0.02, "{rest}");
+        assert!((products[199] - 0.5).abs() < 1e-3, "{}", products[199]);
+        assert!(products.windows(2).all(|pair| pair[1] <= pair[0]), "it does not swing");
+    }
+
+    #[test]
+    fn fewer_images_a_second_are_followed_as_quickly() {
+        let (fast, slow) = (after_doubling(1.0 / 30.0, 61), after_doubling(0.1, 21));
+        assert!((fast[60] - slow[20]).abs() < 0.01, "after two seconds: {} and {}", fast[60], slow[20]);
     }
 }

@@ -6,9 +6,11 @@
 pub mod calibration;
 mod exposure;
 pub mod matcher;
+mod metering;
 pub mod pattern;
 pub mod projector;
 pub mod sensors;
+pub mod warm_up;
 
 use glam::DAffine3;
 use rand::{Rng, SeedableRng};
@@ -22,8 +24,9 @@ use crate::render::{
 use crate::world::World;
 use calibration::Calibration;
 pub use exposure::InfraredExposure;
-use exposure::{AutoExposure, colour_brightness, infrared_brightness};
+use exposure::{AutoExposure, infrared_brightness};
 use matcher::Matcher;
+use metering::{Metered, WhiteBalance};
 use projector::Projector;
 use sensors::{Exposure, colour, infrared};
 
@@ -31,9 +34,11 @@ use sensors::{Exposure, colour, infrared};
 pub const FRAME_INTERVAL: f64 = 1.0 / 30.0;
 /// Images taken and thrown away when switched on, until the exposure fits. Enough for any light.
 const SETTLING_IMAGES: usize = 8;
+/// An exposure fits when the next correction would be no larger than this factor.
+const SETTLED: f64 = 1.02;
 
-/// Which of the device's imperfections take part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a device is used, and which of its imperfections take part.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Imaging {
     /// Photon and read noise of both cameras, and speckle.
     pub noise: bool,
@@ -41,13 +46,27 @@ pub struct Imaging {
     pub motion_blur: bool,
     /// Rows are exposed one after the other.
     pub rolling_shutter: bool,
+    /// The colour camera takes the mean of what it sees for grey; without, its light for the screen's white.
+    pub white_balance: bool,
     /// How the infrared camera follows the light.
     pub infrared_exposure: InfraredExposure,
+    /// How long the device had been on when the first frame was taken, seconds; infinite: it is warm.
+    pub warm_up: f64,
+    /// From one frame that is taken to the next, seconds. The device itself has 30 a second; fewer are every so manieth.
+    pub interval: f64,
 }
 
 impl Default for Imaging {
     fn default() -> Self {
-        Self { noise: true, motion_blur: true, rolling_shutter: true, infrared_exposure: InfraredExposure::default() }
+        Self {
+            noise: true,
+            motion_blur: true,
+            rolling_shutter: true,
+            white_balance: true,
+            infrared_exposure: InfraredExposure::default(),
+            warm_up: f64::INFINITY,
+            interval: FRAME_INTERVAL,
+        }
     }
 }
 
@@ -73,8 +92,11 @@ pub struct Kinect {
     matcher: Matcher,
     colour_exposure: AutoExposure,
     infrared_exposure: AutoExposure,
+    balance: WhiteBalance,
     /// The exposures fit the light.
     settled: bool,
+    /// How long it has been on, seconds.
+    on_for: f64,
 }
 
 impl Kinect {
@@ -99,7 +121,9 @@ impl Kinect {
             renderer,
             colour_exposure: AutoExposure::colour(),
             infrared_exposure: AutoExposure::infrared(imaging.infrared_exposure),
+            balance: WhiteBalance::neutral(),
             settled: false,
+            on_for: imaging.warm_up,
         })
     }
 
@@ -143,7 +167,7 @@ impl Kinect {
     /// # Errors
     /// The graphics adapter stopped working.
     pub fn expose(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<Images, RenderError> {
-        while !self.settled {
+        if !self.settled {
             self.settle(world_from_infrared)?;
         }
         self.renderer.render(&self.frame(world_from_infrared, frame))
@@ -151,7 +175,16 @@ impl Kinect {
 
     /// The second half: finds depth, and has the exposures follow the light.
     pub fn develop(&mut self, images: Images) -> KinectFrame {
-        self.develop_after(FRAME_INTERVAL, images)
+        let interval = self.imaging.interval;
+        let metered = Metered::of(&images.colour);
+        let frame = self.find_depth(images);
+        self.colour_exposure.follow(metered.brightness(), interval);
+        self.infrared_exposure.follow(brightness_of(&frame), interval);
+        if self.imaging.white_balance {
+            self.balance.follow(&metered, interval);
+        }
+        self.on_for += interval;
+        frame
     }
 
     /// True depth (z, metres) of each of the last frame's infrared pixels. For judging, never for the estimator.
@@ -170,23 +203,29 @@ impl Kinect {
         self.renderer.profile(&self.frame(world_from_infrared, 0))
     }
 
-    /// Lets the exposures adapt as they do in the first second after switching on.
+    /// Lets the exposures adapt as they do in the first seconds after switching on.
     fn settle(&mut self, world_from_infrared: &Sweep) -> Result<(), RenderError> {
         for _ in 0..SETTLING_IMAGES {
             let images = self.renderer.render(&self.frame(world_from_infrared, 0))?;
-            self.develop_after(f64::INFINITY, images);
+            let metered = Metered::of(&images.colour);
+            let frame = self.find_depth(images);
+            let colour = self.colour_exposure.settle(metered.brightness());
+            let infrared = self.infrared_exposure.settle(brightness_of(&frame));
+            let before = self.balance;
+            if self.imaging.white_balance {
+                self.balance.follow(&metered, f64::INFINITY);
+            }
+            if colour.max(infrared).max(self.balance.change_from(&before)) < SETTLED {
+                break;
+            }
         }
         self.settled = true;
         Ok(())
     }
 
-    /// As [`develop`](Self::develop), `elapsed` seconds after the last images.
-    fn develop_after(&mut self, elapsed: f64, images: Images) -> KinectFrame {
-        self.colour_exposure.follow(colour_brightness(&images.colour), elapsed);
+    fn find_depth(&self, images: Images) -> KinectFrame {
         let infrared = image(self.calibration.infrared.size(), images.infrared);
         let depth_raw = self.matcher.depth(&infrared);
-        let brightness = infrared_brightness(infrared.pixels(), depth_raw.pixels());
-        self.infrared_exposure.follow(brightness, elapsed);
         KinectFrame { rgb: image(self.calibration.colour.size(), images.colour), infrared, depth_raw }
     }
 
@@ -199,9 +238,10 @@ impl Kinect {
         let world_from_colour = world_from_infrared.of_other(&self.infrared_from_colour);
         Frame {
             colour: self.camera(world_from_colour, colour_exposure, colour::READOUT, colour::VIGNETTING),
-            colour_sensor: colour::sensor(colour_exposure, noise, random.next_u32()),
+            colour_sensor: colour::sensor(colour_exposure, self.balance.gains, noise, random.next_u32()),
             infrared: self.camera(*world_from_infrared, infrared_exposure, infrared::READOUT, infrared::VIGNETTING),
             infrared_sensor: infrared::sensor(infrared_exposure, noise, random.next_u32(), speckle_key),
+            projector_turn: warm_up::projector_turn(self.on_for) as f32,
         }
     }
 
@@ -214,6 +254,10 @@ impl Kinect {
             vignetting,
         }
     }
+}
+
+fn brightness_of(frame: &KinectFrame) -> f64 {
+    infrared_brightness(frame.infrared.pixels(), frame.depth_raw.pixels())
 }
 
 fn projector_light<'a>(calibration: &Calibration, projector: &'a Projector) -> ProjectorLight<'a> {

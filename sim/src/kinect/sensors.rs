@@ -33,6 +33,8 @@ pub mod colour {
     const FULL_WELL_EXPOSURE: f64 = 1.0;
     /// Electrons, from a dynamic range of 71 dB.
     const READ_NOISE: f64 = 7.0;
+    /// Of the converter: 10 bits.
+    const LARGEST_NUMBER: f64 = 1023.0;
     /// Brightness lost in the corners after the chip's own correction, share. A guess.
     pub const VIGNETTING: f32 = 0.25;
     /// First row's exposure to the last row's, seconds: 480 rows of 54.21 µs (libfreenect).
@@ -44,17 +46,20 @@ pub mod colour {
     /// A guess.
     pub const HIGHEST_GAIN: f64 = 8.0;
 
-    /// What the chip does with an exposure.
-    pub fn sensor(exposure: Exposure, noise: bool, noise_key: u32) -> ColourSensor {
+    /// What the chip does with an exposure, and with the gains of R, G, B by which it balances white.
+    pub fn sensor(exposure: Exposure, balance: [f64; 3], noise: bool, noise_key: u32) -> ColourSensor {
         let electrons_per_lux_second = FULL_WELL / FULL_WELL_EXPOSURE;
         let electrons = electrons_per_lux_second * exposure.time * chip_irradiance_per_radiance(F_NUMBER);
+        // The converter rounds; uniform errors have a variance of 1/12.
+        let step = FULL_WELL / LARGEST_NUMBER / exposure.gain;
         let on = f64::from(u8::from(noise));
         ColourSensor {
             electrons_per_luminance: electrons as f32,
-            read_variance: (on * READ_NOISE * READ_NOISE) as f32,
+            read_variance: (on * (READ_NOISE * READ_NOISE + step * step / 12.0)) as f32,
             shot_noise: on as f32,
-            level_per_electron: (exposure.gain / FULL_WELL) as f32,
             noise_key,
+            level_per_electron: balance.map(|gain| (gain * exposure.gain / FULL_WELL) as f32).into(),
+            padding: 0,
         }
     }
 }

@@ -160,6 +160,7 @@ pub(super) fn infrared_passes(
     scene: &Scene,
     samplers: &Samplers,
     projector_map: &DepthMap,
+    projector: &wgpu::Buffer,
     daylight: &Daylight,
 ) -> CameraPasses {
     let view = View::new(optics.infrared);
@@ -171,7 +172,6 @@ pub(super) fn infrared_passes(
     let radiance = light_target(gpu, size);
     let directions = directions_buffer(gpu, &view);
     let image = image_buffer(gpu, &optics.infrared);
-    let projector = projector_uniform(gpu, &optics.projector);
     let tile = tile_texture(gpu, &optics.projector);
     let light = [
         Binding::Uniform(&uniform),
@@ -179,7 +179,7 @@ pub(super) fn infrared_passes(
         Binding::Texture(&gbuffer.lights.view),
         Binding::TextureArray(&scene.albedos),
         Binding::Linear(&samplers.repeating),
-        Binding::Uniform(&projector),
+        Binding::Uniform(projector),
         Binding::Depth(&projector_map.depth.view),
         Binding::Nearest(&samplers.nearest),
         Binding::Uniform(&daylight_uniform),
@@ -189,7 +189,7 @@ pub(super) fn infrared_passes(
     let sensor = [
         Binding::Uniform(&uniform),
         Binding::Uniform(&sensor_uniform),
-        Binding::Uniform(&projector),
+        Binding::Uniform(projector),
         Binding::Input(&directions),
         Binding::Texture(&radiance.view),
         Binding::PreciseTexture(&gbuffer.places.view),
@@ -223,8 +223,9 @@ fn sensor_stage(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_
     Stage::with_variants(gpu, name, size, bindings, &variants.each_ref().map(|variant| variant.as_slice()))
 }
 
-fn projector_uniform(gpu: &Device, projector: &ProjectorLight<'_>) -> wgpu::Buffer {
-    let uniform = uniforms::Projector {
+/// What shaders are told of the projector.
+pub(super) fn projector_uniform(projector: &ProjectorLight<'_>) -> uniforms::Projector {
+    uniforms::Projector {
         baseline: projector.baseline,
         toe_in: projector.toe_in,
         pitch: projector.pitch,
@@ -237,10 +238,7 @@ fn projector_uniform(gpu: &Device, projector: &ProjectorLight<'_>) -> wgpu::Buff
         tile_height: projector.tile_grid[1] as f32,
         padding: 0.0,
         tile_brightness: projector.tile_brightness.map(|[left, middle, right]| Vec4::new(left, middle, right, 0.0)),
-    };
-    let buffer = uniform_buffer(gpu, size_of::<uniforms::Projector>());
-    gpu.queue.write_buffer(&buffer, 0, bytemuck::bytes_of(&uniform));
-    buffer
+    }
 }
 
 fn tile_texture(gpu: &Device, projector: &ProjectorLight<'_>) -> wgpu::TextureView {

@@ -7,10 +7,13 @@ use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2};
 
 use super::daylight::Daylight;
 use super::device::{Adapter, Device, RenderError};
-use super::passes::{CameraPasses, MAP_FOCAL, MAP_SIZE, Optics, Samplers, colour_passes, infrared_passes};
+use super::passes::{
+    CameraPasses, MAP_FOCAL, MAP_SIZE, Optics, Samplers, colour_passes, infrared_passes, projector_uniform,
+};
 use super::raster::{DepthMap, uniform_buffer};
 use super::readback::Readback;
 use super::scene::Scene;
+use super::uniforms::Projector;
 use super::view::{NEAR, clip_from_camera};
 use super::{CameraFrame, ColourSensor, InfraredSensor};
 use crate::light::LightState;
@@ -27,6 +30,8 @@ pub struct Frame {
     pub infrared: CameraFrame,
     /// Its chip.
     pub infrared_sensor: InfraredSensor,
+    /// Tangent by which the projector points further towards the camera than its optics say.
+    pub projector_turn: f32,
 }
 
 /// What the sensors saw, row after row.
@@ -57,7 +62,8 @@ pub struct Renderer {
     projector_map: DepthMap,
     projector_clip: wgpu::Buffer,
     infrared_from_projector: DAffine3,
-    toe_in: f32,
+    projector: Projector,
+    projector_uniform: wgpu::Buffer,
     colour: CameraPasses,
     infrared: CameraPasses,
     readback: Readback,
@@ -100,7 +106,8 @@ impl Renderer {
         let projector_map = DepthMap::new(&gpu, MAP_SIZE, &projector_clip, SLOPE_BIAS, false);
         let daylight = Daylight::new(&gpu, world.open_sky);
         let colour = colour_passes(&gpu, optics, &scene, &samplers, &daylight);
-        let infrared = infrared_passes(&gpu, optics, &scene, &samplers, &projector_map, &daylight);
+        let projector = uniform_buffer(&gpu, size_of::<Projector>());
+        let infrared = infrared_passes(&gpu, optics, &scene, &samplers, &projector_map, &projector, &daylight);
         let readback = Readback::new(&gpu, colour.image.size() + infrared.image.size());
         let along_baseline = DVec3::X * f64::from(optics.projector.baseline);
         Ok(Self {
@@ -110,7 +117,8 @@ impl Renderer {
             projector_map,
             projector_clip,
             infrared_from_projector: DAffine3::from_translation(along_baseline),
-            toe_in: optics.projector.toe_in,
+            projector: projector_uniform(&optics.projector),
+            projector_uniform: projector,
             colour,
             infrared,
             readback,
@@ -202,10 +210,12 @@ impl Renderer {
         let infrared = self.infrared.view.uniform(&frame.infrared, self.daylight.towards());
         let world_from_projector = frame.infrared.sweep.middle() * self.infrared_from_projector;
         let size = Vec2::from(MAP_SIZE.map(|size| size as f32));
-        let centre = size / 2.0 + Vec2::new(self.toe_in * MAP_FOCAL, 0.0);
+        let turned = Projector { toe_in: self.projector.toe_in + frame.projector_turn, ..self.projector };
+        let centre = size / 2.0 + Vec2::new(turned.toe_in * MAP_FOCAL, 0.0);
         let clip_from_projector = clip_from_camera(Vec2::splat(MAP_FOCAL), centre, size, NEAR);
         let projector = (clip_from_projector.as_dmat4() * DMat4::from(world_from_projector.inverse())).as_mat4();
         write(&self.projector_clip, bytemuck::bytes_of(&projector));
+        write(&self.projector_uniform, bytemuck::bytes_of(&turned));
         write(&self.colour.uniform, bytemuck::bytes_of(&colour));
         write(&self.colour.sensor_uniform, bytemuck::bytes_of(&frame.colour_sensor));
         write(&self.infrared.uniform, bytemuck::bytes_of(&infrared));

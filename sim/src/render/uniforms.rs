@@ -69,10 +69,12 @@ pub struct ColourSensor {
     pub read_variance: f32,
     /// 1 with photon noise, 0 without.
     pub shot_noise: f32,
-    /// Share of full scale for an electron, gain included.
-    pub level_per_electron: f32,
     /// Another for every frame.
     pub noise_key: u32,
+    /// Share of full scale for an electron in R, G, B, gains included.
+    pub level_per_electron: Vec3,
+    /// None.
+    pub padding: u32,
 }
 
 /// How the infrared camera's chip turns light into numbers, in one frame. `InfraredSensor` in
@@ -136,7 +138,7 @@ mod tests {
         assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,
             map_focal, map_size, map_near, tile_width, tile_height, padding, tile_brightness);
         assert_same_layout!("colour_sensor", ColourSensor: electrons_per_luminance, read_variance, shot_noise,
-            level_per_electron, noise_key);
+            noise_key, level_per_electron, padding);
         assert_same_layout!("infrared_sensor", InfraredSensor: bandwidth, electrons_per_radiance, read_variance,
             shot_noise, numbers_per_electron, speckle_contrast, noise_key, speckle_key);
     }

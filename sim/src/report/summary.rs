@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use serde::Serialize;
+use sunblind_estimator::mode::Energies;
 
 use super::judged::{Judged, lost_frames, tracked_frames};
 use super::timing::{STAGES, StageTime, Timing};
@@ -58,6 +59,8 @@ struct CpuPerFrame {
 struct SensorSummary {
     /// Mean share of the depth images' pixels that have a value; `null` when nobody counted.
     depth_valid_share: Option<f64>,
+    /// Mean energies of the images, 0 to 1; `null` where there were none.
+    energies: Energies,
 }
 
 #[derive(Serialize)]
@@ -102,7 +105,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
         estimators: estimators
             .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation)))
             .collect(),
-        sensor: SensorSummary { depth_valid_share: judged.depth_valid_share() },
+        sensor: SensorSummary { depth_valid_share: judged.depth_valid_share(), energies: log.energies },
         warnings: &log.warnings,
         expectations: &log.expectations,
     };

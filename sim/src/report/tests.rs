@@ -6,6 +6,7 @@ use std::fs;
 use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
 use sunblind_estimator::image::{Image, RgbImage};
+use sunblind_estimator::mode::Energies;
 use sunblind_estimator::motion::MotionFailure;
 use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{Health, Mode, Timestamp};
@@ -89,6 +90,7 @@ fn made_up_log(frames: u32) -> RunLog {
         snapshots: (0..6).map(|index| snapshot(index * frames / 6, [640, 480])).collect(),
         has_wheels: false,
         thumbnails: Vec::new(),
+        energies: Energies { rgb: Some(0.21), infrared: None, depth: Some(0.3) },
         plan: None,
         planned_path: Vec::new(),
         expectations: Vec::new(),

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix6};
 use sunblind_estimator::image::{Image, InfraredImage, RgbImage};
+use sunblind_estimator::mode::Energies;
 use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{Health, Mode, Timestamp};
 
@@ -26,6 +27,8 @@ pub struct RunLog {
     pub snapshots: Vec<Snapshot>,
     /// Small images of many instants, evenly spread over the run, without feature tracks.
     pub thumbnails: Vec<Snapshot>,
+    /// What the images held, on average.
+    pub energies: Energies,
     /// The world from above; `None` for a recording.
     pub plan: Option<Plan>,
     /// The way that the robot was to take: x, y in the world, metres; empty for a recording.

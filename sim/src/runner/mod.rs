@@ -19,6 +19,7 @@
 mod closed_loop;
 mod digest;
 mod driven;
+mod energies;
 mod follower;
 mod gallery;
 pub mod log;

@@ -10,6 +10,7 @@ use sunblind_estimator::{Estimate, Measurement, Rig, Streams, Timestamp};
 
 use super::digest;
 use super::driven::Driven;
+use super::energies::MeanEnergies;
 use super::follower::Follower;
 use super::gallery::Gallery;
 use super::log::RunLog;
@@ -28,6 +29,7 @@ pub struct Session<'a> {
     frame_hash: Sha256,
     other_hash: Option<Sha256>,
     gallery: Gallery,
+    energies: MeanEnergies,
     on_frame: &'a (dyn Fn() + Sync),
     started: (Instant, ProcessTime),
 }
@@ -50,6 +52,7 @@ impl<'a> Session<'a> {
             frame_hash: Sha256::new(),
             other_hash: None,
             gallery: Gallery::new(expected_frames),
+            energies: MeanEnergies::default(),
             on_frame,
             started: (Instant::now(), ProcessTime::now()),
         }
@@ -67,6 +70,7 @@ impl<'a> Session<'a> {
             self.newest = arrival;
         }
         let steps = self.steps(measurements);
+        self.energies.take(measurements, &self.rig);
         let Some((judged, others)) = self.followers.split_first_mut() else { return };
         let (rig, gallery, on_frame) = (&self.rig, &mut self.gallery, self.on_frame);
         let follow_judged = || {
@@ -137,6 +141,7 @@ impl<'a> Session<'a> {
             has_wheels: self.rig.drive.is_some(),
             snapshots: self.gallery.snapshots,
             thumbnails: self.gallery.thumbnails,
+            energies: self.energies.means(),
             plan: None,
             planned_path: Vec::new(),
             expectations: Vec::new(),

@@ -17,6 +17,13 @@ const SPEED: RangeInclusive<f64> = 0.01..=0.7;
 const LENS_HEIGHT: RangeInclusive<f64> = 0.3..=2.0;
 /// What the Kinect's motor reaches, degrees.
 const TILT: RangeInclusive<f64> = -27.0..=27.0;
+/// A switch that took longer would be a broken device, seconds.
+const STREAM_SWITCH: RangeInclusive<f64> = 0.0..=10.0;
+/// After a day everything is as warm as it gets, seconds.
+const WARM_UP: RangeInclusive<f64> = 0.0..=86_400.0;
+/// Beyond, nobody has calibrated anything: pixels, degrees.
+const RESIDUAL_PX: RangeInclusive<f64> = 0.0..=50.0;
+const RESIDUAL_DEG: RangeInclusive<f64> = 0.0..=5.0;
 /// Direct sun on a window is some 30 times an overcast day.
 const DAYLIGHT: RangeInclusive<f64> = 0.0..=100.0;
 /// Worlds are smaller, metres.
@@ -88,7 +95,11 @@ impl Kinect {
     fn check(&self) -> Result<(), Fault> {
         number("kinect.lens_height_m", self.lens_height, LENS_HEIGHT)?;
         number("kinect.tilt_deg", self.tilt_deg, TILT)?;
-        number("kinect.rate_hz", self.rate, RATE)
+        number("kinect.rate_hz", self.rate, RATE)?;
+        number("kinect.stream_switch_s", self.stream_switch, STREAM_SWITCH)?;
+        optional("kinect.warm_up_s", self.warm_up, WARM_UP)?;
+        number("kinect.residual_px", self.residual_px, RESIDUAL_PX)?;
+        number("kinect.residual_deg", self.residual_deg, RESIDUAL_DEG)
     }
 }
 

@@ -5,6 +5,7 @@ use nalgebra::Point2;
 
 use super::{Fault, Floor, Robot, Scenario, WorldName};
 use crate::kinect::Imaging;
+use crate::kinect::calibration::{Calibration, Residual};
 use crate::light::LightState;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
@@ -66,8 +67,27 @@ impl From<super::Light> for LightState {
 
 impl From<super::Kinect> for Imaging {
     fn from(kinect: super::Kinect) -> Self {
-        let super::Kinect { noise, motion_blur, .. } = kinect;
-        Self { noise, motion_blur, rolling_shutter: motion_blur, ..Self::default() }
+        Self {
+            noise: kinect.noise,
+            motion_blur: kinect.motion_blur,
+            rolling_shutter: kinect.rolling_shutter,
+            white_balance: kinect.white_balance,
+            infrared_exposure: kinect.infrared_exposure,
+            warm_up: kinect.warm_up.unwrap_or(f64::INFINITY),
+            interval: kinect.rate.recip(),
+        }
+    }
+}
+
+impl super::Kinect {
+    /// How the unit is truly built.
+    pub fn unit(&self) -> Calibration {
+        self.unit_seed.map_or_else(Calibration::nominal, Calibration::drawn)
+    }
+
+    /// How far what is believed of it may be from that.
+    pub fn residual(&self) -> Residual {
+        Residual { pixels: self.residual_px, degrees: self.residual_deg }
     }
 }
 

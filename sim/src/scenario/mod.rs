@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 use sunblind_estimator::fusion::PlanarPose;
 use sunblind_estimator::{EstimatorParams, PoseSource};
 
+pub use crate::kinect::InfraredExposure;
 pub use error::{Fault, ScenarioError};
 pub use expect::Expectation;
 pub use load::{AnyScenario, load};
@@ -169,10 +170,30 @@ pub struct Kinect {
     pub rate: f64,
     /// Which images it delivers at a time.
     pub streams: StreamMode,
+    /// Of `exclusive` streams: how long neither colour nor infrared comes when one takes the other's place, seconds.
+    /// The default is a guess; nobody has published it.
+    #[serde(rename = "stream_switch_s")]
+    pub stream_switch: f64,
     /// Sensor noise; false for an ideal sensor.
     pub noise: bool,
-    /// Motion during the exposure; false for an ideal sensor.
+    /// What moves while an image is exposed is blurred; false for an ideal sensor.
     pub motion_blur: bool,
+    /// An image's rows are exposed one after the other; false for an ideal sensor.
+    pub rolling_shutter: bool,
+    /// The colour camera balances white by itself, as the device does unless it is told not to.
+    pub white_balance: bool,
+    /// How the infrared camera follows the light; which of them the device does is not known.
+    pub infrared_exposure: InfraredExposure,
+    /// How long the device has been on at the start, seconds: distances drift for an hour. Without the key it is warm.
+    #[serde(rename = "warm_up_s")]
+    pub warm_up: Option<f64>,
+    /// Which unit it is: each number is another one, as far from the nominal unit as real units are. Without the key it
+    /// is the nominal one.
+    pub unit_seed: Option<u64>,
+    /// What the calibration leaves of the cameras' centres and of their image's edge, standard deviation, pixels.
+    pub residual_px: f64,
+    /// What the calibration leaves of the turn between the cameras, standard deviation about each axis.
+    pub residual_deg: f64,
     /// True depth instead of what the device makes of its infrared image: for comparison only.
     pub truth_depth: bool,
 }
@@ -184,8 +205,16 @@ impl Default for Kinect {
             tilt_deg: 0.0,
             rate: 15.0,
             streams: StreamMode::Simultaneous,
+            stream_switch: 0.5,
             noise: true,
             motion_blur: true,
+            rolling_shutter: true,
+            white_balance: true,
+            infrared_exposure: InfraredExposure::default(),
+            warm_up: None,
+            unit_seed: None,
+            residual_px: 0.1,
+            residual_deg: 0.01,
             truth_depth: false,
         }
     }

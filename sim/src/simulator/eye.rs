@@ -11,13 +11,15 @@ use rayon::ThreadPoolBuilder;
 use sunblind_estimator::image::Image;
 use sunblind_estimator::{MeasurementData, Timestamp};
 
+use super::video::Carried;
 use crate::kinect::{Kinect, KinectFrame};
 use crate::render::{Adapter, RenderError, Sweep};
 
 /// One frame's images, of one instant.
 pub(super) struct Images {
     pub captured_at: Timestamp,
-    pub data: [MeasurementData; 3],
+    /// Those that the device's streams carried.
+    pub data: Vec<MeasurementData>,
     /// What finding depth in the infrared image took.
     pub depth_cost: Duration,
 }
@@ -25,6 +27,7 @@ pub(super) struct Images {
 struct Order {
     captured_at: Timestamp,
     world_from_infrared: Sweep,
+    carried: Carried,
     frame: u64,
 }
 
@@ -65,8 +68,8 @@ impl Eye {
     }
 
     /// Has a frame taken, exposed about `captured_at`.
-    pub fn capture(&mut self, captured_at: Timestamp, world_from_infrared: Sweep) {
-        let order = Order { captured_at, world_from_infrared, frame: self.ordered };
+    pub fn capture(&mut self, captured_at: Timestamp, world_from_infrared: Sweep, carried: Carried) {
+        let order = Order { captured_at, world_from_infrared, carried, frame: self.ordered };
         self.ordered += 1;
         self.open.push_back(captured_at);
         if let Some(orders) = &self.orders {
@@ -117,10 +120,8 @@ fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images
         let raw = depth.pixels().iter().map(|&z| kinect.calibration().raw_of(f64::from(z))).collect();
         depth_raw = Image::from_pixels(depth.width(), depth.height(), raw).expect("one value a pixel");
     }
-    let data = [
-        MeasurementData::Rgb(Arc::new(rgb)),
-        MeasurementData::Infrared(Arc::new(infrared)),
-        MeasurementData::Depth(Arc::new(depth_raw)),
-    ];
+    let mut data = vec![MeasurementData::Depth(Arc::new(depth_raw))];
+    data.extend(order.carried.colour.then(|| MeasurementData::Rgb(Arc::new(rgb))));
+    data.extend(order.carried.infrared.then(|| MeasurementData::Infrared(Arc::new(infrared))));
     Ok(Images { captured_at: order.captured_at, data, depth_cost })
 }

@@ -2,6 +2,7 @@
 //! and keeps the truth for the judge. Knows no estimator.
 
 mod eye;
+mod video;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
@@ -13,7 +14,7 @@ use sunblind_estimator::{Measurement, MeasurementData, Timestamp};
 use thiserror::Error;
 
 use crate::evaluation::StampedPose;
-use crate::kinect::{self, FRAME_INTERVAL, Kinect};
+use crate::kinect::{FRAME_INTERVAL, Kinect};
 use crate::physics::{STEP, Simulation, WorldError};
 use crate::random::stream;
 use crate::record::{Arrival, Body, Calibration, Latency, Sensor};
@@ -23,6 +24,7 @@ use crate::scenario::{Fault, Scenario, StreamMode};
 use crate::truth;
 use crate::world::World;
 use eye::{Eye, Images};
+use video::Video;
 
 /// From one step of the physics to the next, nanoseconds.
 const STEP_NANOS: i64 = (STEP * 1e9) as i64;
@@ -59,8 +61,7 @@ pub struct Simulator {
     steps: i64,
     rate: f64,
     frames: i64,
-    exclusive: bool,
-    wants_infrared: bool,
+    video: Video,
     calibration: Calibration,
     robot_from_infrared: Isometry3<f64>,
     /// Of the readings since the last one that was sent: sum and count.
@@ -83,9 +84,9 @@ impl Simulator {
         let start = world.ground.standing(x, y, heading, robot.wheelbase() / 2.0);
         let floors = scenario.robot.floor_plan(&world.ground);
         let physics = Simulation::new(world, &robot, floors, &start, scenario.seed)?;
-        let unit = kinect::calibration::Calibration::nominal();
+        let unit = scenario.kinect.unit();
         let robot_from_infrared = robot.robot_from_camera * unit.colour_from_infrared;
-        let mut rig = unit.rig(robot.robot_from_camera);
+        let mut rig = scenario.kinect.residual().of(unit.rig(robot.robot_from_camera), scenario.seed);
         rig.drive = Some(Drive::default());
         let latency = [Sensor::Colour, Sensor::Infrared, Sensor::Depth]
             .into_iter()
@@ -98,8 +99,10 @@ impl Simulator {
             steps: 0,
             rate: scenario.kinect.rate,
             frames: 0,
-            exclusive: scenario.kinect.streams == StreamMode::Exclusive,
-            wants_infrared: false,
+            video: match scenario.kinect.streams {
+                StreamMode::Simultaneous => Video::Both,
+                StreamMode::Exclusive => Video::exclusive(scenario.kinect.stream_switch),
+            },
             calibration: Calibration { rig, body: Body::Robot, latency },
             robot_from_infrared,
             gyro: (Vector3::zeros(), 0.0),
@@ -142,9 +145,10 @@ impl Simulator {
         self.depth_cost
     }
 
-    /// Of a device that gives colour or infrared, never both, infrared is wanted from the next frame on.
+    /// Of a device that gives colour or infrared, never both, infrared is wanted from now on. It takes the device a while
+    /// to switch, in which it gives neither; what it has captured before still arrives.
     pub fn want_infrared(&mut self, wanted: bool) {
-        self.wants_infrared = wanted;
+        self.video.want_infrared(wanted, self.now());
     }
 
     /// One step of the physics on, the motors following `command`: what has arrived by then, in order.
@@ -201,7 +205,8 @@ impl Simulator {
             pose.expect("the robot was somewhere").world_from_body * self.robot_from_infrared
         };
         let sweep = Sweep::between(&world_from_infrared(captured_at - half), &world_from_infrared(captured_at + half));
-        self.eye.capture(Timestamp::from_nanos(captured_at), sweep);
+        let carried = self.video.carries(Timestamp::from_nanos(captured_at - half));
+        self.eye.capture(Timestamp::from_nanos(captured_at), sweep, carried);
     }
 
     /// Waits for the frames that must have arrived by now.
@@ -212,14 +217,7 @@ impl Simulator {
         while self.eye.oldest().is_some_and(has_arrived) {
             let Images { captured_at, data, depth_cost } = self.eye.wait()?;
             self.depth_cost += depth_cost;
-            let unwanted = match (self.exclusive, self.wants_infrared) {
-                (false, _) => None,
-                (true, true) => Some(Sensor::Colour),
-                (true, false) => Some(Sensor::Infrared),
-            };
-            for data in data.into_iter().filter(|data| Some(Sensor::of(data)) != unwanted) {
-                self.measure(captured_at, data);
-            }
+            data.into_iter().for_each(|data| self.measure(captured_at, data));
         }
         Ok(())
     }

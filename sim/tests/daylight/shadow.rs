@@ -5,7 +5,7 @@ use sunblind_sim::light::{Beam, LightState, towards};
 use sunblind_sim::world::World;
 
 use crate::outdoors::{Camera, MIDDLE};
-use crate::scene::{self, Light, block, even, object, panel};
+use sunblind_sim::validation::scene::{self, Light, block, even, object, panel};
 
 /// A plate in the world's y-z plane's south, facing the camera that looks north, half of it lit by hand.
 fn plate_under_the_sun(by_hand: Light) -> World {

@@ -5,7 +5,7 @@ use sunblind_sim::light::{Beam, LightState, Sky, daylight, towards};
 use sunblind_sim::world::World;
 
 use crate::outdoors::{Camera, MIDDLE};
-use crate::scene::{self, Light, even, object, panel};
+use sunblind_sim::validation::scene::{self, Light, even, object, panel};
 
 /// Numbers of the infrared camera for a radiance, W m⁻² sr⁻¹ nm⁻¹: from a plate lit by hand.
 fn numbers_per_radiance() -> f64 {

@@ -7,7 +7,7 @@ use sunblind_sim::kinect::calibration::Calibration;
 use sunblind_sim::kinect::{Imaging, Kinect};
 use sunblind_sim::render::Sweep;
 
-use crate::scene::{Light, looking_north, room_world};
+use sunblind_sim::validation::scene::{Light, looking_north, room_world};
 
 const MARK: &str = "bytes: ";
 

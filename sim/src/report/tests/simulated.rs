@@ -64,6 +64,8 @@ fn a_simulated_run_is_summarised_with_its_facts() {
     assert_eq!(summary["cpu_ms_per_frame"]["render"], 120.0);
     let share = summary["sensor"]["depth_valid_share"].as_f64().unwrap();
     assert!((0.6..0.8).contains(&share), "{share}");
+    let energies = serde_json::json!({ "rgb": 0.21, "infrared": null, "depth": 0.3 });
+    assert_eq!(summary["sensor"]["energies"], energies);
     assert_eq!(
         summary["expectations"][0],
         serde_json::json!({ "name": "svsf.ate_m", "value": 0.04567, "bound": { "max": 0.1 }, "held": true })

@@ -76,14 +76,35 @@ fn robot() -> impl Strategy<Value = Robot> {
 
 fn kinect() -> impl Strategy<Value = Kinect> {
     let streams = prop_oneof![Just(StreamMode::Simultaneous), Just(StreamMode::Exclusive)];
-    (0.3..2.0, -27.0..27.0, 1.0..30.0, streams, any::<[bool; 3]>()).prop_map(
-        |(lens_height, tilt_deg, rate, streams, [noise, motion_blur, truth_depth])| Kinect {
+    let exposure = prop_oneof![
+        Just(InfraredExposure::Free),
+        Just(InfraredExposure::LimitedExposure),
+        Just(InfraredExposure::GainOnly)
+    ];
+    let numbers = (0.3..2.0, -27.0..27.0, 1.0..30.0, 0.0..2.0, 0.0..2.0, 0.0..0.5);
+    let unit = (option::of(0.0..7200.0), option::of(0..i64::MAX as u64));
+    (numbers, unit, streams, exposure, any::<[bool; 5]>()).prop_map(
+        |(
+            (lens_height, tilt_deg, rate, stream_switch, residual_px, residual_deg),
+            (warm_up, unit_seed),
+            streams,
+            infrared_exposure,
+            [noise, motion_blur, rolling_shutter, white_balance, truth_depth],
+        )| Kinect {
             lens_height,
             tilt_deg,
             rate,
             streams,
+            stream_switch,
             noise,
             motion_blur,
+            rolling_shutter,
+            white_balance,
+            infrared_exposure,
+            warm_up,
+            unit_seed,
+            residual_px,
+            residual_deg,
             truth_depth,
         },
     )

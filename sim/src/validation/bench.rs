@@ -1,18 +1,17 @@
-//! A Kinect on a test bench, walls to look at, and a table of what is measured.
-
-use std::ops::RangeInclusive;
+//! A Kinect on a test bench, walls to look at, and what is measured of them.
 
 use glam::{DAffine3, DVec3};
 use nalgebra::Isometry3;
 use sunblind_estimator::camera::DepthCamera;
 use sunblind_estimator::image::Image;
-use sunblind_sim::kinect::calibration::Calibration;
-use sunblind_sim::kinect::matcher::NO_DEPTH;
-use sunblind_sim::kinect::{Imaging, Kinect, KinectFrame};
-use sunblind_sim::render::Sweep;
-use sunblind_sim::world::World;
 
-use crate::scene::{self, Light, even, looking_north, object, turned_wall};
+use super::scene::{self, Light, even, looking_north, object, turned_wall};
+use super::statistics::spread;
+use crate::kinect::calibration::Calibration;
+use crate::kinect::matcher::NO_DEPTH;
+use crate::kinect::{Imaging, Kinect, KinectFrame};
+use crate::render::{RenderError, Sweep};
+use crate::world::World;
 
 /// b·f of the nominal unit, m·px (75 mm, 580 px).
 pub const BASELINE_FOCAL: f64 = 43.5;
@@ -20,7 +19,7 @@ pub const BASELINE_FOCAL: f64 = 43.5;
 const SPACING: f32 = 70.0;
 
 /// A wall to look at.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Wall {
     /// Straight ahead of the bench, metres.
     pub distance: f32,
@@ -28,6 +27,7 @@ pub struct Wall {
     pub angle: f32,
     /// At 830 nm.
     pub albedo: f32,
+    /// On it.
     pub light: Light,
 }
 
@@ -49,7 +49,7 @@ pub fn gallery(walls: &[Wall]) -> World {
     scene::world("gallery", objects.collect(), materials)
 }
 
-/// The device, and what it has seen so far.
+/// The device, and how much it has seen so far.
 pub struct Bench {
     kinect: Kinect,
     camera: DepthCamera,
@@ -58,34 +58,75 @@ pub struct Bench {
 
 /// One frame, and the truth.
 pub struct Seen {
+    /// What the device gives out.
     pub frame: KinectFrame,
+    /// True depth, metres.
     pub truth: Image<f32>,
     camera: DepthCamera,
 }
 
 impl Bench {
-    pub fn new(world: &World) -> Self {
-        let kinect = Kinect::new(world, Calibration::nominal(), Imaging::default(), 1).expect("a graphics adapter");
+    /// The nominal unit in a world.
+    ///
+    /// # Errors
+    /// No graphics adapter.
+    pub fn new(world: &World) -> Result<Self, RenderError> {
+        Self::with(world, Imaging::default())
+    }
+
+    /// As [`new`](Self::new), with other imperfections.
+    ///
+    /// # Errors
+    /// No graphics adapter.
+    pub fn with(world: &World, imaging: Imaging) -> Result<Self, RenderError> {
+        let kinect = Kinect::new(world, Calibration::nominal(), imaging, 1)?;
         let camera = kinect.calibration().rig(Isometry3::identity()).depth;
-        Self { kinect, camera, frames: 0 }
+        Ok(Self { kinect, camera, frames: 0 })
     }
 
     /// What is seen from the origin, exposures settled.
-    pub fn look(&mut self) -> Seen {
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working, as below.
+    pub fn look(&mut self) -> Result<Seen, RenderError> {
         self.look_from(looking_north())
     }
 
     /// What is seen of a gallery's wall.
-    pub fn look_at(&mut self, number: usize) -> Seen {
+    ///
+    /// # Errors
+    /// As [`look`](Self::look).
+    pub fn look_at(&mut self, number: usize) -> Result<Seen, RenderError> {
         let place = DAffine3::from_translation(DVec3::X * f64::from(SPACING) * number as f64);
         self.look_from(place * looking_north())
     }
 
-    fn look_from(&mut self, world_from_infrared: DAffine3) -> Seen {
+    /// What is seen of each wall of a gallery.
+    ///
+    /// # Errors
+    /// As [`look`](Self::look).
+    pub fn look_at_all(walls: &[Wall]) -> Result<Vec<Seen>, RenderError> {
+        let mut bench = Self::new(&gallery(walls))?;
+        (0..walls.len()).map(|number| bench.look_at(number)).collect()
+    }
+
+    /// What is seen from a place, the device at rest (`world_from_infrared`).
+    ///
+    /// # Errors
+    /// As [`look`](Self::look).
+    pub fn look_from(&mut self, world_from_infrared: DAffine3) -> Result<Seen, RenderError> {
+        self.look_along(&Sweep::still(world_from_infrared))
+    }
+
+    /// What is seen on the move, exposures settled.
+    ///
+    /// # Errors
+    /// As [`look`](Self::look).
+    pub fn look_along(&mut self, world_from_infrared: &Sweep) -> Result<Seen, RenderError> {
         self.kinect.restart();
         self.frames += 1;
-        let frame = self.kinect.capture(&Sweep::still(world_from_infrared), self.frames).expect("a frame");
-        Seen { frame, truth: self.kinect.true_depth().expect("true depth"), camera: self.camera }
+        let frame = self.kinect.capture(world_from_infrared, self.frames)?;
+        Ok(Seen { frame, truth: self.kinect.true_depth()?, camera: self.camera })
     }
 }
 
@@ -98,10 +139,12 @@ pub struct Sample {
 }
 
 impl Seen {
+    /// What a pixel says, metres.
     pub fn depth(&self, x: usize, y: usize) -> Option<f64> {
         self.camera.depth_of(self.frame.depth_raw.at(x, y))
     }
 
+    /// What is true of it, metres.
     pub fn true_depth(&self, x: usize, y: usize) -> f64 {
         f64::from(self.truth.at(x, y))
     }
@@ -144,45 +187,4 @@ impl Sample {
 /// Measured and true depth differ by more than a pixel of disparity: another place was matched.
 fn is_wrong([measured, truth]: &[f64; 2]) -> bool {
     BASELINE_FOCAL * (1.0 / measured - 1.0 / truth).abs() > 1.0
-}
-
-pub fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-pub fn spread(values: &[f64]) -> f64 {
-    let middle = mean(values);
-    (values.iter().map(|value| (value - middle).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
-}
-
-/// The line through points (x, y) with least squares: intercept and slope.
-pub fn line(points: &[[f64; 2]]) -> [f64; 2] {
-    let of = |axis: usize| points.iter().map(|point| point[axis]).collect::<Vec<_>>();
-    let [x, y] = [mean(&of(0)), mean(&of(1))];
-    let products: f64 = points.iter().map(|point| (point[0] - x) * (point[1] - y)).sum();
-    let squares: f64 = points.iter().map(|point| (point[0] - x).powi(2)).sum();
-    [y - products / squares * x, products / squares]
-}
-
-/// Everything measured in a test; what is not accepted fails when all is printed.
-#[derive(Default)]
-pub struct Report {
-    failures: Vec<String>,
-}
-
-impl Report {
-    /// `what` names the unit; `target` is the published figure, `accepted` what passes for it.
-    pub fn expect(&mut self, what: &str, target: f64, accepted: RangeInclusive<f64>, measured: f64) {
-        let (low, high) = (accepted.start(), accepted.end());
-        let line =
-            format!("{what:<52} target {target:10.5}  accepted {low:10.5} to {high:10.5}  measured {measured:10.5}");
-        println!("{line}");
-        if !accepted.contains(&measured) {
-            self.failures.push(line);
-        }
-    }
-
-    pub fn finish(self) {
-        assert!(self.failures.is_empty(), "not as published:\n{}", self.failures.join("\n"));
-    }
 }

@@ -1,8 +1,8 @@
 //! Small worlds with light set by hand, and a Kinect at their origin that looks north.
-#![allow(dead_code, reason = "every test file uses its own part")]
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
-use sunblind_sim::world::{Material, Mesh, Object, TEXTURE_SIZE, World};
+
+use crate::world::{Material, Mesh, Object, TEXTURE_SIZE, World};
 
 /// `world_from_infrared` of a Kinect at the origin, level, looking north.
 pub fn looking_north() -> DAffine3 {
@@ -13,18 +13,56 @@ pub fn looking_north() -> DAffine3 {
 /// Irradiance of a surface: lux of white light, W m⁻² nm⁻¹ at 830 nm.
 #[derive(Clone, Copy, Debug)]
 pub struct Light {
+    /// Lux, the same in each channel.
     pub lux: f32,
+    /// W m⁻² nm⁻¹ at 830 nm.
     pub near_infrared: f32,
 }
+
+/// Direct sun on a surface that faces it, by elevation: degrees, kilolux, W m⁻² nm⁻¹ at 830 nm. Clear sky by SPECTRL2
+/// (aerosol 0.084, 1.42 cm of water).
+const SUN_BY_ELEVATION: [[f32; 3]; 4] = [[3.0, 7.8, 0.29], [5.0, 18.0, 0.42], [10.0, 44.0, 0.61], [20.0, 74.0, 0.77]];
 
 impl Light {
     /// An office: light, but none at 830 nm.
     pub const LED: Self = Self { lux: 500.0, near_infrared: 0.0 };
+    /// Darkness.
     pub const NONE: Self = Self { lux: 0.0, near_infrared: 0.0 };
 
-    /// Sunlight as at noon: 0.0085 W m⁻² nm⁻¹ for a kilolux.
+    /// Lamps that are LEDs or fluorescent tubes: below 0.0003 W m⁻² nm⁻¹ for a kilolux.
+    pub fn led(lux: f32) -> Self {
+        Self { lux, near_infrared: 0.0 }
+    }
+
+    /// A halogen lamp: a black body of 2856 K has 0.035 W m⁻² nm⁻¹ for a kilolux.
+    pub fn halogen(lux: f32) -> Self {
+        Self { lux, near_infrared: 35e-6 * lux }
+    }
+
+    /// Sunlight as at noon: 0.0085 W m⁻² nm⁻¹ for a kilolux (a clear sky by SPECTRL2 has 0.008 to 0.009).
     pub fn sun(kilolux: f32) -> Self {
         Self { lux: 1000.0 * kilolux, near_infrared: 0.0085 * kilolux }
+    }
+
+    /// An overcast sky: clouds are nearly grey, 0.006 to 0.008 W m⁻² nm⁻¹ for a kilolux. Estimate.
+    pub fn overcast(kilolux: f32) -> Self {
+        Self { lux: 1000.0 * kilolux, near_infrared: 0.007 * kilolux }
+    }
+
+    /// Blue skylight in the shade: 0.0033 to 0.0037 W m⁻² nm⁻¹ for a kilolux (SPECTRL2).
+    pub fn shade(kilolux: f32) -> Self {
+        Self { lux: 1000.0 * kilolux, near_infrared: 0.0035 * kilolux }
+    }
+
+    /// The sun so many degrees above the horizon, on an upright wall that faces it; of a few elevations from 3 to 20.
+    ///
+    /// # Panics
+    /// At other elevations.
+    pub fn low_sun(elevation: f32) -> Self {
+        let row = SUN_BY_ELEVATION.iter().find(|row| row[0] == elevation);
+        let &[_, kilolux, near_infrared] = row.expect("an elevation of the table");
+        let facing = elevation.to_radians().cos();
+        Self { lux: 1000.0 * kilolux * facing, near_infrared: near_infrared * facing }
     }
 
     fn irradiance(self) -> [f32; 4] {
@@ -71,6 +109,7 @@ pub fn panel(corner: Vec3, edges: [Vec3; 2], cells: u32, light: Light) -> Mesh {
     mesh
 }
 
+/// A thing that a robot bumps into.
 pub fn object(name: &str, mesh: Mesh, material: usize) -> Object {
     Object { name: name.into(), mesh, material, collides: true }
 }
@@ -107,6 +146,7 @@ pub fn block(centre: Vec3, size: Vec3, light: Light) -> Mesh {
     whole
 }
 
+/// A world whose light is that of its vertices.
 pub fn world(name: &str, objects: Vec<Object>, materials: Vec<Material>) -> World {
     World { name: name.into(), objects, materials, ..World::default() }
 }
