@@ -11,7 +11,7 @@ use crate::textured_room;
 /// The world that has scenarios of its own.
 const TEXTURED_ROOM: &str = "textured_room";
 /// All that `world.name` can be.
-const WORLDS: [&str; 3] = ["laboratory", "yard", TEXTURED_ROOM];
+const WORLDS: [&str; 4] = ["laboratory", "yard", "campus", TEXTURED_ROOM];
 
 /// A scenario of either kind; `world.name` decides.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]

@@ -10,6 +10,7 @@ use crate::light::LightState;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
 use crate::world::bake::{Effort, bake_cached, cache_folder};
+use crate::world::campus::campus;
 use crate::world::ground::Ground;
 use crate::world::laboratory::laboratory;
 use crate::world::rays::Rays;
@@ -25,6 +26,7 @@ impl WorldName {
         match self {
             Self::Laboratory => laboratory(WORLD_SEED),
             Self::Yard => yard(WORLD_SEED),
+            Self::Campus => campus(WORLD_SEED),
         }
     }
 }

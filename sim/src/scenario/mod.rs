@@ -85,6 +85,8 @@ pub enum WorldName {
     Laboratory,
     /// A yard between houses, 25 × 20 m: asphalt, slabs, lawn and gravel, not quite level.
     Yard,
+    /// The laboratory, the yard before its door and a tunnel behind the yard, 26 × 40 m in all.
+    Campus,
 }
 
 /// What shines. The same for the whole run.

@@ -4,6 +4,7 @@
 //! (W m⁻² nm⁻¹).
 
 pub mod bake;
+pub mod campus;
 pub mod gltf;
 pub mod ground;
 pub mod laboratory;
@@ -15,6 +16,7 @@ mod scene;
 pub mod shape;
 mod sun_directions;
 pub mod transfer;
+pub mod way;
 pub mod yard;
 
 use std::collections::BTreeSet;

@@ -16,6 +16,8 @@ const COARSE: f32 = 1.0;
 pub(super) struct Scene {
     objects: Vec<Object>,
     lamps: Vec<Lamp>,
+    /// Where all that is added is put.
+    origin: Place,
 }
 
 /// What a piece is to a robot.
@@ -28,6 +30,14 @@ pub(super) enum Kind {
 }
 
 impl Scene {
+    /// Builds something in the frame of `place`, all of it: a building on its site.
+    pub fn within(&mut self, place: Place, build: impl FnOnce(&mut Self)) {
+        let outer = self.origin;
+        self.origin = outer.then(place);
+        build(self);
+        self.origin = outer;
+    }
+
     /// Adds a thing that `build` makes in the frame of `place`; one object for each of its surfaces.
     pub fn piece(&mut self, name: &str, kind: Kind, place: Place, build: impl FnOnce(&mut Piece)) {
         let number = self.objects.len() as f32;
@@ -38,7 +48,7 @@ impl Scene {
         for (surface, mesh) in piece.meshes {
             self.objects.push(Object {
                 name: format!("{name}, {surface:?}"),
-                mesh: mesh.placed(&place),
+                mesh: mesh.placed(&self.origin.then(place)),
                 material: surface.index(),
                 collides: kind == Kind::Solid,
             });
@@ -46,7 +56,10 @@ impl Scene {
     }
 
     /// Adds a light.
-    pub fn lamp(&mut self, lamp: Lamp) {
+    pub fn lamp(&mut self, mut lamp: Lamp) {
+        let turned = |edge: [f32; 3]| (self.origin.point(edge.into()) - self.origin.at).to_array();
+        lamp.half_edges = lamp.half_edges.map(turned);
+        lamp.centre = self.origin.point(lamp.centre.into()).to_array();
         self.lamps.push(lamp);
     }
 

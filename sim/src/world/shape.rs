@@ -42,7 +42,7 @@ impl Mapping {
 }
 
 /// Where a thing stands: its own frame's origin and heading in the world's.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Place {
     /// Metres.
     pub at: Vec3,

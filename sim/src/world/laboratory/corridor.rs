@@ -6,18 +6,21 @@ use super::furniture::{lockers, plain_chair};
 use super::instruments::cable_tray;
 use super::storage::{sack_truck, steel_rack};
 use super::things::{bin, carton, extinguisher, ladder, plant};
-use super::{BETWEEN, CEILING, CHEEK, CORRIDOR, DOOR, EAST, LABORATORY_DOOR, OFFICE_DOOR, PARTITION, ROOMS};
+use super::{
+    BETWEEN, CEILING, CHEEK, CORRIDOR, DOOR, EAST, LABORATORY_DOOR, OFFICE_DOOR, OUTER_DOOR, OuterDoor, PARTITION,
+    ROOMS,
+};
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Scene};
 use crate::world::shape::Place;
 
-pub(super) fn build(scene: &mut Scene, seed: u64) {
-    shell(scene);
+pub(super) fn build(scene: &mut Scene, seed: u64, outer_door: OuterDoor) {
+    shell(scene, outer_door);
     fittings(scene);
     things(scene, seed);
 }
 
-fn shell(scene: &mut Scene) {
+fn shell(scene: &mut Scene, outer_door: OuterDoor) {
     let doorway = |along: [f32; 2]| Opening { along, height: [0.0, DOOR], cheeks: PARTITION };
     let west_part = Wall { name: "corridor, north-west wall", from: [0.0, CORRIDOR], to: [BETWEEN, CORRIDOR] };
     west_part.build(scene, &[doorway(LABORATORY_DOOR)]);
@@ -40,9 +43,12 @@ fn shell(scene: &mut Scene) {
     let south_east = Wall { name: "corridor, south-east wall", from: [EAST, 0.0], to: [6.0, 0.0] };
     let south_west = Wall { name: "corridor, south-west wall", from: [6.0, 0.0], to: [0.0, 0.0] };
     south_east.build(scene, &[]);
-    south_west.build(scene, &[]);
+    let leaves = outer_door == OuterDoor::Open;
+    let way_out = OUTER_DOOR.map(|x| 6.0 - x);
+    let way_out = Opening { along: [way_out[1], way_out[0]], height: [0.0, DOOR], cheeks: 0.0 };
+    south_west.build(scene, if leaves { std::slice::from_ref(&way_out) } else { &[] });
     door_frame(scene, &south_east, [0.75, 1.75], DOOR, true);
-    door_frame(scene, &south_west, [2.9, 3.9], DOOR, true);
+    door_frame(scene, &south_west, if leaves { way_out.along } else { [2.9, 3.9] }, DOOR, !leaves);
     picture(scene, &south_east, Surface::Noticeboard, [2.4, 0.75], [1.5, 1.0]);
     picture(scene, &south_east, Surface::Notice, [1.95, 1.25], [0.21, 0.3]);
     low_sockets(scene, &south_east, 2.05);

@@ -12,7 +12,7 @@ const CLOSE: f64 = 0.02;
 const LIFT: f32 = 2e-4;
 
 /// Takes out the hidden triangles, and objects of which nothing is left. Walls keep theirs: plans are drawn of them.
-pub(super) fn remove(world: &mut World) {
+pub(in crate::world) fn remove(world: &mut World) {
     let mut lifted = world.objects.clone();
     lifted.iter_mut().for_each(|object| lift(&mut object.mesh));
     let Some(rays) = Rays::new(&lifted) else { return };

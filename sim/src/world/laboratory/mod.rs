@@ -17,7 +17,7 @@ mod building;
 mod corridor;
 mod fittings;
 mod furniture;
-mod hidden;
+pub(super) mod hidden;
 mod instruments;
 mod laboratory_room;
 mod office;
@@ -66,22 +66,49 @@ const EDGE_ON_WORKTOPS: f32 = 0.3;
 /// Builds the laboratory; `seed` decides on textures and on what fills the shelves. Light is yet to be baked.
 pub fn laboratory(seed: u64) -> World {
     let mut scene = Scene::default();
-    corridor::build(&mut scene, seed);
-    laboratory_room::build(&mut scene, seed);
-    office::build(&mut scene, seed);
-    building::outlook(&mut scene, "outlook north", [-5.0, 14.0], [17.0, 14.0]);
-    building::outlook(&mut scene, "outlook east", [17.0, 14.0], [17.0, -5.0]);
+    build(&mut scene, seed, OuterDoor::Shut);
     let mut world = scene.finish("laboratory", seed);
     tessellate(&mut world);
-    let office =
-        CoveredArea { min: [BETWEEN, ROOMS].map(f64::from), max: [EAST, NORTH].map(f64::from), cover: Cover::Carpet };
-    world.ground = Ground { elsewhere: Cover::Tile, areas: vec![office], terrain: None };
+    world.ground = Ground { elsewhere: Cover::Tile, areas: floors(), terrain: None };
     hidden::remove(&mut world);
     world
 }
 
+/// Whether one can leave the corridor through the door in its southern wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OuterDoor {
+    Shut,
+    /// Something else stands south of the laboratory: nothing is to be seen of the outlook there.
+    Open,
+}
+
+/// The outer door, along x, metres.
+pub(super) const OUTER_DOOR: [f32; 2] = LABORATORY_DOOR;
+
+/// Builds the rooms and what their windows look out on.
+pub(super) fn build(scene: &mut Scene, seed: u64, outer_door: OuterDoor) {
+    corridor::build(scene, seed, outer_door);
+    laboratory_room::build(scene, seed);
+    office::build(scene, seed);
+    building::outlook(scene, "outlook north", [-5.0, 14.0], [17.0, 14.0]);
+    match outer_door {
+        OuterDoor::Shut => building::outlook(scene, "outlook east", [17.0, 14.0], [17.0, -5.0]),
+        OuterDoor::Open => {
+            building::outlook(scene, "outlook east", [17.0, 14.0], [17.0, 0.0]);
+            building::outlook(scene, "outlook south", [17.0, 0.0], [EAST, 0.0]);
+        }
+    }
+}
+
+/// What lies on the floor: tile all over, carpet in the office.
+pub(super) fn floors() -> Vec<CoveredArea> {
+    let area =
+        |min: [f32; 2], max: [f32; 2], cover| CoveredArea { min: min.map(f64::from), max: max.map(f64::from), cover };
+    vec![area([0.0; 2], [EAST, NORTH], Cover::Tile), area([BETWEEN, ROOMS], [EAST, NORTH], Cover::Carpet)]
+}
+
 /// Cuts triangles further for the light's sake: worktops, and floors near what stands on them.
-fn tessellate(world: &mut World) {
+pub(super) fn tessellate(world: &mut World) {
     let is_floor = |name: &str| name.starts_with("floor");
     let is_worktop =
         |name: &str| ["Resin", "desk, Walnut", "desk, Oak", "table, Walnut"].iter().any(|end| name.ends_with(end));

@@ -244,6 +244,6 @@ pub fn parking_sign(size: [f32; 2], _seed: u32) -> Canvas {
     write(&mut canvas, [0.3 * width, 0.12 * height], 0.45 * height, "P", Running::Across, white);
     canvas.rectangle([0.06 * width, 0.68 * height, 0.94 * width, 0.93 * height], white);
     let black = Coat::Opaque(CARBON_BLACK);
-    write(&mut canvas, [0.11 * width, 0.73 * height], 0.14 * height, "VISITORS", Running::Across, black);
+    write(&mut canvas, [0.17 * width, 0.755 * height], 0.1 * height, "GUESTS", Running::Across, black);
     canvas
 }

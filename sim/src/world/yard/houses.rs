@@ -67,10 +67,13 @@ impl Facade<'_> {
             let openings: Vec<Opening> = self.openings.iter().filter(within).copied().collect();
             scene.piece(&format!("{}, part {index}", self.name), Kind::Solid, self.place(), |piece| {
                 self.face(piece, [left, right], &openings);
-                for opening in &openings {
-                    self.fill(piece, opening);
-                }
             });
+            if openings.iter().any(|opening| opening.fill != Fill::Open) {
+                let name = format!("{}, part {index}, openings", self.name);
+                scene.piece(&name, Kind::Solid, self.place(), |piece| {
+                    openings.iter().for_each(|opening| self.fill(piece, opening));
+                });
+            }
         }
     }
 

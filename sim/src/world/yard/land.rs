@@ -6,8 +6,6 @@ use crate::world::material::Surface;
 use crate::world::scene::{Kind, Scene};
 use crate::world::shape::Place;
 
-/// The yard's south-west and north-east corner, metres.
-pub(super) const YARD: [[f32; 2]; 2] = [[0.0, 0.0], [25.0, 20.0]];
 /// Distance of the terrain's points, metres: a tyre of 22 cm feels no facet of it.
 const PITCH: f64 = 0.1;
 /// Distance of the points that are drawn, metres, on what is bumpy and on what is even.
@@ -69,14 +67,17 @@ pub(super) fn height(x: f64, y: f64) -> f64 {
     camber + bank + bumps
 }
 
-/// What is driven on.
-pub(super) fn ground() -> Ground {
-    let corner = |at: [f32; 2]| at.map(f64::from);
-    let area = |patch: &Patch| CoveredArea { min: corner(patch.min), max: corner(patch.max), cover: patch.cover };
+/// What is driven on, with the heights between two corners of the plan, metres: all that is driven on must be there.
+pub(super) fn ground(min: [f64; 2], max: [f64; 2]) -> Ground {
+    let area = |&Patch { min, max, cover, .. }: &Patch| CoveredArea {
+        min: min.map(f64::from),
+        max: max.map(f64::from),
+        cover,
+    };
     Ground {
         elsewhere: Cover::Concrete,
         areas: PATCHES.iter().map(area).collect(),
-        terrain: Some(Terrain::sampled(corner(YARD[0]), corner(YARD[1]), PITCH, height)),
+        terrain: Some(Terrain::sampled(min, max, PITCH, height)),
     }
 }
 

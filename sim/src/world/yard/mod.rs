@@ -20,13 +20,12 @@ mod land;
 mod plants;
 mod things;
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::World;
 use super::ground::Ground;
 use super::material::Surface;
 use super::scene::{Kind, Scene};
 use super::shape::Place;
+use super::way::rounded_loop;
 use houses::{Facade, Fill, Opening, fence, wall};
 use land::on_ground;
 use plants::{conifer, flowers, hedge, shrub, tree};
@@ -35,27 +34,49 @@ use things::{
     tub, wheeled_bin,
 };
 
-/// The brick house's door, along the façade, metres.
-const HOUSE_DOOR: [f32; 2] = [8.0, 9.2];
+/// The brick house's façade, y in metres, and its door, along x and its height.
+pub(super) const HOUSE: f32 = 20.0;
+pub(super) const HOUSE_DOOR: [f32; 2] = [8.0, 9.2];
+pub(super) const HOUSE_DOOR_HEIGHT: f32 = 2.1;
+/// The garages' façade, y in metres, their doors' height, and those of them that open for a way through, along x.
+pub(super) const GARAGES: f32 = 1.5;
+pub(super) const GARAGE_DOOR_HEIGHT: f32 = 2.2;
+pub(super) const GARAGE_DOORS: [[f32; 2]; 2] = [[2.4, 5.0], [12.2, 14.8]];
+/// How far back the garages reach, y in metres, and their roof's underside.
+pub(super) const GARAGES_BACK: f32 = -6.6;
+pub(super) const GARAGES_TOP: f32 = 2.7;
 
 /// Builds the yard; `seed` decides on textures and on how plants grow. Light is yet to be baked.
 pub fn yard(seed: u64) -> World {
     let mut scene = Scene::default();
-    build(&mut scene, seed);
+    build(&mut scene, seed, Doors::Shut);
     let mut world = scene.finish("yard", seed);
-    world.ground = land::ground();
+    world.ground = ground();
     world.open_sky = true;
     world
 }
 
 /// What is driven on in the yard: drive, gravel, lawn and path, with their heights.
 pub fn ground() -> Ground {
-    land::ground()
+    ground_within([0.0, 0.0], [25.0, 20.0])
 }
 
-fn build(scene: &mut Scene, seed: u64) {
+/// The same, with heights from one corner of the plan to another, metres: around the yard it is level.
+pub(super) fn ground_within(min: [f64; 2], max: [f64; 2]) -> Ground {
+    land::ground(min, max)
+}
+
+/// Whether one can leave the yard: through the brick house's door and two of the garages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Doors {
+    Shut,
+    /// What is behind them builds floors and cheeks.
+    Open,
+}
+
+pub(super) fn build(scene: &mut Scene, seed: u64, doors: Doors) {
     land::build(scene);
-    houses_around(scene);
+    houses_around(scene, doors);
     walls_around(scene, seed);
     beside_the_drive(scene, seed);
     beside_the_gravel(scene, seed);
@@ -63,7 +84,8 @@ fn build(scene: &mut Scene, seed: u64) {
     beside_the_path(scene, seed);
 }
 
-fn houses_around(scene: &mut Scene) {
+fn houses_around(scene: &mut Scene, doors: Doors) {
+    let passage = |shut: Fill| if doors == Doors::Open { Fill::Open } else { shut };
     let window = |left: f32, bottom: f32| Opening {
         along: [left, left + 1.2],
         height: [bottom, bottom + 1.5],
@@ -72,11 +94,11 @@ fn houses_around(scene: &mut Scene) {
     let mut openings: Vec<Opening> =
         [1.6, 4.2, 10.6, 13.2, 15.8, 19.4, 22.2].into_iter().map(|left| window(left, 1.0)).collect();
     openings.extend([1.6, 4.2, 8.0, 10.6, 13.2, 15.8, 19.4, 22.2].into_iter().map(|left| window(left, 3.9)));
-    openings.push(Opening { along: HOUSE_DOOR, height: [0.0, 2.15], fill: Fill::Door });
+    openings.push(Opening { along: HOUSE_DOOR, height: [0.0, HOUSE_DOOR_HEIGHT], fill: passage(Fill::Door) });
     let north = Facade {
         name: "brick house",
-        from: [0.0, 20.0],
-        to: [25.0, 20.0],
+        from: [0.0, HOUSE],
+        to: [25.0, HOUSE],
         height: 6.2,
         surface: Surface::Brick,
         pieces: &[6.5, 12.4, 18.2],
@@ -93,7 +115,7 @@ fn houses_around(scene: &mut Scene) {
     let west = Facade {
         name: "plaster house",
         from: [0.0, 6.5],
-        to: [0.0, 20.0],
+        to: [0.0, HOUSE],
         height: 5.2,
         surface: Surface::Plaster,
         pieces: &[4.6, 8.9],
@@ -102,22 +124,27 @@ fn houses_around(scene: &mut Scene) {
     west.build(scene);
     west.roof(scene, 2.2);
     west.downpipe(scene, 4.6);
-    let garage = |left: f32| Opening { along: [left, left + 2.6], height: [0.0, 2.2], fill: Fill::Roller };
-    let openings = [garage(1.2), garage(4.6), garage(8.0), garage(11.0)];
-    let garages = Facade {
-        name: "garages",
-        from: [16.0, 1.5],
-        to: [1.0, 1.5],
-        height: 2.7,
+    let garage = |along: [f32; 2], fill: Fill| Opening { along, height: [0.0, GARAGE_DOOR_HEIGHT], fill };
+    let [west_door, east_door] = GARAGE_DOORS.map(|[from, to]| garage([16.0 - to, 16.0 - from], passage(Fill::Roller)));
+    let openings = [east_door, garage([4.6, 7.2], Fill::Roller), garage([8.0, 10.6], Fill::Roller), west_door];
+    let side = |name, from, to, pieces: &'static [f32], openings| Facade {
+        name,
+        from,
+        to,
+        height: GARAGES_TOP,
         surface: Surface::Concrete,
-        pieces: &[4.2, 7.6, 10.8],
-        openings: &openings,
+        pieces,
+        openings,
     };
-    garages.build(scene);
-    scene.piece("garages, roof", Kind::Decor, Place::new(0.0, 1.5, 0.0, 0.0), |piece| {
-        piece.block(Surface::Concrete, [0.85, -5.0, 2.7], [16.15, 0.15, 2.95]);
+    side("garages", [16.0, GARAGES], [1.0, GARAGES], &[4.2, 7.6, 10.8], &openings).build(scene);
+    side("garages, west side", [1.0, GARAGES], [1.0, GARAGES_BACK], &[], &[]).build(scene);
+    side("garages, east side", [16.0, GARAGES_BACK], [16.0, GARAGES], &[], &[]).build(scene);
+    side("garages, back", [1.0, GARAGES_BACK], [16.0, GARAGES_BACK], &[], &[]).build(scene);
+    scene.piece("garages, roof", Kind::Decor, Place::new(0.0, GARAGES, 0.0, 0.0), |piece| {
+        let back = GARAGES_BACK - GARAGES;
+        piece.block(Surface::Concrete, [0.85, back - 0.15, GARAGES_TOP], [16.15, 0.15, GARAGES_TOP + 0.25]);
     });
-    let number = Place::new(0.0, 20.0, 0.0, 0.0);
+    let number = Place::new(0.0, HOUSE, 0.0, 0.0);
     scene.piece("house number", Kind::Decor, number, |piece| {
         piece.front(Surface::HouseNumber, [9.5, 9.8], [1.7, 1.94], -0.01);
     });
@@ -132,8 +159,8 @@ fn walls_around(scene: &mut Scene, seed: u64) {
     hedge(scene, "south hedge, east part", [[20.6, 0.6], [25.0, 0.6]], 0.9, 2.2, seed);
     hedge(scene, "east hedge", [[24.5, 1.0], [24.5, 6.0]], 0.9, 2.2, seed);
     // Beyond: what closes the view above the walls.
-    tree(scene, "lime beyond the garages", [5.0, -3.5], 8.0, seed);
-    tree(scene, "lime beyond the hedge", [13.0, -4.0], 8.5, seed);
+    tree(scene, "lime beyond the garages", [5.0, -9.5], 9.5, seed);
+    tree(scene, "second lime beyond the garages", [13.0, -10.0], 10.0, seed);
     tree(scene, "lime in the south-east", [21.5, -2.5], 7.5, seed);
     tree(scene, "lime beyond the gate", [-3.5, 3.0], 7.5, seed);
     tree(scene, "lime beyond the wall", [27.5, 9.0], 8.0, seed);
@@ -169,8 +196,8 @@ fn beside_the_drive(scene: &mut Scene, seed: u64) {
 }
 
 fn beside_the_gravel(scene: &mut Scene, seed: u64) {
-    wall(scene, "low wall, west part", Surface::Stone, [[6.6, 3.65], [11.0, 3.65]], 0.3, 0.6);
-    wall(scene, "low wall, east part", Surface::Stone, [[11.8, 3.65], [17.4, 3.65]], 0.3, 0.6);
+    wall(scene, "low wall, west part", Surface::Stone, [[6.6, 3.65], [12.1, 3.65]], 0.3, 0.6);
+    wall(scene, "low wall, east part", Surface::Stone, [[14.9, 3.65], [17.4, 3.65]], 0.3, 0.6);
     kerb(scene, "lawn, southern edging", [6.4, 6.2], [15.7, 6.28], -0.1, 0.06);
     bench(scene, "gravel, bench", on_ground(10.2, 6.75, 0.0));
     for (index, (x, wide, tall, surface)) in [
@@ -185,9 +212,9 @@ fn beside_the_gravel(scene: &mut Scene, seed: u64) {
     {
         shrub(scene, &format!("gravel, shrub {index}"), [x, 6.9], [wide, tall], surface, seed);
     }
-    street_lamp(scene, "gravel, lamp", on_ground(11.4, 3.6, 180.0));
-    tub(scene, "gravel, tub", on_ground(17.3, 4.4, 12.0));
-    shrub(scene, "gravel, tub's shrub", [17.3, 4.4], [0.7, 1.2], Surface::Foliage, seed);
+    street_lamp(scene, "gravel, lamp", on_ground(11.2, 3.4, 180.0));
+    tub(scene, "gravel, tub", on_ground(17.45, 4.25, 12.0));
+    shrub(scene, "gravel, tub's shrub", [17.45, 4.25], [0.7, 1.2], Surface::Foliage, seed);
     conifer(scene, "corner conifer", [18.6, 3.4], 4.2, seed);
     shrub(scene, "corner shrub", [17.9, 5.6], [1.0, 0.9], Surface::Hedge, seed);
     tree(scene, "corner cherry", [21.4, 4.0], 4.6, seed);
@@ -244,42 +271,13 @@ fn beside_the_path(scene: &mut Scene, seed: u64) {
     manhole(scene, "path, manhole", on_ground(18.0, 17.4, 0.0));
 }
 
-/// A closed way over drive, gravel, lawn and path, anticlockwise: x, y in metres, about 10 cm apart, the last point the
+/// A closed way over drive, gravel, lawn and path, anticlockwise: x, y in metres, at most 10 cm apart, the last point the
 /// first. Its corners are arcs.
 pub fn loop_waypoints() -> Vec<[f64; 2]> {
-    const RADIUS: f64 = 0.9;
-    const STEP: f64 = 0.1;
-    let corners = LOOP_CORNERS;
-    let start = [0.5 * (corners[3][0] + corners[0][0]), corners[0][1]];
-    let mut points = vec![start];
-    let walk = |points: &mut Vec<[f64; 2]>, to: [f64; 2]| {
-        let from = points[points.len() - 1];
-        let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / STEP).ceil().max(1.0);
-        let between = |step: u32| [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * f64::from(step) / steps);
-        points.extend((1..=steps as u32).map(between));
-    };
-    let towards = |from: [f64; 2], to: [f64; 2]| {
-        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-        [0, 1].map(|axis| (to[axis] - from[axis]) / length)
-    };
-    for (index, &corner) in corners.iter().enumerate() {
-        let before = if index == 0 { start } else { corners[index - 1] };
-        let after = corners.get(index + 1).copied().unwrap_or(start);
-        let (arrive, leave) = (towards(before, corner), towards(corner, after));
-        let centre = [0, 1].map(|axis| corner[axis] + RADIUS * (leave[axis] - arrive[axis]));
-        walk(&mut points, [0, 1].map(|axis| corner[axis] - RADIUS * arrive[axis]));
-        let steps = (RADIUS * FRAC_PI_2 / STEP).ceil();
-        for step in 1..=steps as u32 {
-            let (sin, cos) = (FRAC_PI_2 * f64::from(step) / steps).sin_cos();
-            points.push([0, 1].map(|axis| centre[axis] + RADIUS * (sin * arrive[axis] - cos * leave[axis])));
-        }
-    }
-    walk(&mut points, start);
-    points
+    rounded_loop([10.65, 17.65], &[[4.6, 17.65], [4.6, 4.75], [16.7, 4.75], [16.7, 17.65]], 0.9)
 }
-
-/// Where the loop turns, anticlockwise, beginning after its start on the path: drive, gravel, lawn, path.
-const LOOP_CORNERS: [[f64; 2]; 4] = [[4.6, 17.65], [4.6, 4.75], [16.7, 4.75], [16.7, 17.65]];
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+pub(super) use tests::clearance;

@@ -135,7 +135,7 @@ fn the_loop_is_closed_and_of_good_length() {
 }
 
 /// Calls `with` for each thing that stands within reach of a robot at a place: its name and how far off it is in plan.
-fn for_each_near(world: &World, at: Vec2, reach: f32, mut with: impl FnMut(&str, f32)) {
+pub(in crate::world) fn clearance(world: &World, at: Vec2, reach: f32, mut with: impl FnMut(&str, f32)) {
     let ground = world.ground.height(at.x.into(), at.y.into()) as f32;
     for Object { name, mesh, .. } in world.objects.iter().filter(|object| object.collides) {
         let [min, max] = mesh.bounds();
@@ -158,7 +158,7 @@ fn for_each_near(world: &World, at: Vec2, reach: f32, mut with: impl FnMut(&str,
 fn the_loop_keeps_half_a_metre_off_everything_that_collides() {
     for [x, y] in loop_waypoints() {
         let at = vec2(x as f32, y as f32);
-        for_each_near(&WORLD, at, 0.5, |name, off| assert!(off >= 0.5, "{off} m from {name} at {at}"));
+        clearance(&WORLD, at, 0.5, |name, off| assert!(off >= 0.5, "{off} m from {name} at {at}"));
     }
 }
 
@@ -170,7 +170,7 @@ fn most_of_the_way_structure_is_near() {
     for pair in points.windows(2).step_by(3) {
         let [from, to] = [pair[0], pair[1]].map(glam::DVec2::from);
         let mut nearest = f32::INFINITY;
-        for_each_near(&WORLD, from.as_vec2(), 2.4, |_, off| nearest = nearest.min(off));
+        clearance(&WORLD, from.as_vec2(), 2.4, |_, off| nearest = nearest.min(off));
         let ground = WORLD.ground.height(from.x, from.y);
         let (ahead, eye) = ((to - from).normalize(), from.extend(ground + LENS));
         let left = ahead.perp();

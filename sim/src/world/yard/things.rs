@@ -4,14 +4,14 @@ use std::f32::consts::TAU;
 
 use glam::{Vec3, vec3};
 
+use crate::light::LampKind;
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Piece, Scene};
 use crate::world::shape::Place;
 use crate::world::{Lamp, Mesh};
 
-/// Exitance of a street lamp's glass, lux: a 70 W sodium lamp, some 4500 lm out of 0.09 m², at 2000 K in colour. 830 nm:
-/// its lines at 818 and 819.5 nm, as much as of halogen: 0.031 W m⁻² nm⁻¹ per klx (a guess).
-const SODIUM: [f32; 4] = [94_000.0, 41_500.0, 3_000.0, 1.55];
+/// Exitance of a street lamp's glass, lux: a 70 W sodium lamp, some 4500 lm out of 0.09 m².
+const STREET_LAMP: f32 = 50_000.0;
 
 /// A flat face with four corners, anticlockwise from its lower left as seen; shows a texture's share of `u` and `v`.
 fn sheet(piece: &mut Piece, surface: Surface, corners: [Vec3; 4], [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
@@ -212,7 +212,7 @@ pub(super) fn street_lamp(scene: &mut Scene, name: &str, place: Place) {
         name: name.to_owned(),
         centre: place.point(vec3(0.0, -reach, height - 0.006)).to_array(),
         half_edges: [along(vec3(0.0, 0.225, 0.0)), along(vec3(0.1, 0.0, 0.0))].map(|edge| edge.to_array()),
-        exitance: SODIUM,
+        exitance: LampKind::Sodium.exitance(STREET_LAMP),
         group: "street".to_owned(),
     });
 }
