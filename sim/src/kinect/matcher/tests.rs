@@ -137,8 +137,9 @@ fn noise_alone_and_even_light_have_no_depth() {
 #[test]
 fn every_processor_finds_the_same() {
     let bench = Bench::new();
-    let steps =
-        |column: f64, row: f64| if (column / 50.0 + row / 70.0) as usize % 3 == 0 { 0.9 } else { 1.5 + row / 200.0 };
+    let steps = |column: f64, row: f64| {
+        if ((column / 50.0 + row / 70.0) as usize).is_multiple_of(3) { 0.9 } else { 1.5 + row / 200.0 }
+    };
     let infrared = bench.infrared(steps, DOT, AMBIENT, 80.0);
     assert_eq!(bench.matcher.depth(&infrared), bench.matcher.depth_on(Arch::Scalar, &infrared));
 }

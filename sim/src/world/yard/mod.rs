@@ -198,7 +198,7 @@ fn beside_the_drive(scene: &mut Scene, seed: u64) {
 fn beside_the_gravel(scene: &mut Scene, seed: u64) {
     wall(scene, "low wall, west part", Surface::Stone, [[6.6, 3.65], [12.1, 3.65]], 0.3, 0.6);
     wall(scene, "low wall, east part", Surface::Stone, [[14.9, 3.65], [17.4, 3.65]], 0.3, 0.6);
-    kerb(scene, "lawn, southern edging", [6.4, 6.2], [15.7, 6.28], -0.1, 0.06);
+    kerb(scene, "lawn, southern edging", [6.4, 6.2], [15.7, 6.27], -0.1, 0.06);
     bench(scene, "gravel, bench", on_ground(10.2, 6.75, 0.0));
     for (index, (x, wide, tall, surface)) in [
         (7.6, 0.9, 0.8, Surface::Foliage),
