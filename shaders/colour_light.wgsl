@@ -4,8 +4,8 @@
 #import lib/surface
 
 @group(0) @binding(0) var<uniform> camera: Camera;
-@group(0) @binding(1) var places: texture_2d<f32>;
-@group(0) @binding(2) var lights: texture_2d<f32>;
+@group(0) @binding(1) var surfaces: texture_2d<u32>;
+@group(0) @binding(2) var depths: texture_depth_2d;
 @group(0) @binding(3) var albedos: texture_2d_array<f32>;
 @group(0) @binding(4) var repeating: sampler;
 @group(0) @binding(5) var<uniform> daylight: Daylight;
@@ -21,15 +21,14 @@ override SUN: bool = false;
 @compute @workgroup_size(64, 1)
 fn colour_light(@builtin(global_invocation_id) id: vec3u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
-    let place = textureLoad(places, id.xy, 0);
-    let light = textureLoad(lights, id.xy, 0);
-    let layer = floor(place.w / LEVELS);
-    let albedo = textureSampleLevel(albedos, repeating, place.xy, u32(layer), place.w - LEVELS * layer).rgb;
-    let inverse_z = place.z;
+    let texel = textureLoad(surfaces, id.xy, 0);
+    let surface = surface_of(texel);
+    let inverse_z = textureLoad(depths, id.xy, 0) / camera.near;
+    let albedo = textureSampleLevel(albedos, repeating, surface.uv, surface.material, surface.level).rgb;
     let direction = vec3f(direction_of_gbuffer_pixel(camera, vec2f(id.xy)), 1.0);
-    var irradiance = light.rgb;
+    var irradiance = irradiance_of(texel);
     if SUN {
-        let facing = max(light.w, 0.0);
+        let facing = max(sun_cosine_of(texel), 0.0);
         irradiance += daylight.beam.rgb * facing * sunlit(daylight, sun_map, nearest, direction / inverse_z, facing);
     }
     // Lambertian: luminance = albedo · irradiance / π.

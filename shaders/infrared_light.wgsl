@@ -6,8 +6,8 @@
 #import lib/surface
 
 @group(0) @binding(0) var<uniform> camera: Camera;
-@group(0) @binding(1) var places: texture_2d<f32>;
-@group(0) @binding(2) var lights: texture_2d<f32>;
+@group(0) @binding(1) var surfaces: texture_2d<u32>;
+@group(0) @binding(2) var depths: texture_depth_2d;
 @group(0) @binding(3) var albedos: texture_2d_array<f32>;
 @group(0) @binding(4) var repeating: sampler;
 @group(0) @binding(5) var<uniform> projector: Projector;
@@ -28,25 +28,25 @@ override SUN: bool = false;
 @compute @workgroup_size(64, 1)
 fn infrared_light(@builtin(global_invocation_id) id: vec3u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
-    let place = textureLoad(places, id.xy, 0);
-    let light = textureLoad(lights, id.xy, 0);
-    let layer = floor(place.w / LEVELS);
-    let albedo = textureSampleLevel(albedos, repeating, place.xy, u32(layer), place.w - LEVELS * layer).a;
+    let texel = textureLoad(surfaces, id.xy, 0);
+    let surface = surface_of(texel);
+    let inverse_z = textureLoad(depths, id.xy, 0) / camera.near;
+    let albedo = textureSampleLevel(albedos, repeating, surface.uv, surface.material, surface.level).a;
 
-    let inverse_z = place.z;
+    let normal = normal_of(texel);
     let direction = direction_of_gbuffer_pixel(camera, vec2f(id.xy));
     let from_projector = direction - vec2f(projector.baseline * inverse_z, 0.0);
     // A plane across the view at depth z gets peak/z²; this surface as much as it faces the light.
-    let facing_projector = max(-dot(light.xyz, vec3f(from_projector, 1.0)), 0.0);
+    let facing_projector = max(-dot(normal, vec3f(from_projector, 1.0)), 0.0);
     let mapped = textureGather(projector_map, nearest, map_of_direction(projector, from_projector));
     let own = inverse_z * projector.map_near * (1.0 + TOLERANCE);
     let lit = dot(select(vec4f(), vec4f(0.25), mapped <= vec4f(own)), vec4f(1.0));
     let dot_peak = projector.peak_irradiance * inverse_z * inverse_z * facing_projector * lit;
 
     let view = vec3f(direction, 1.0);
-    var irradiance = light.w;
+    var irradiance = near_infrared_of(texel);
     if SUN {
-        let facing = max(dot(light.xyz, daylight.towards), 0.0);
+        let facing = max(dot(normal, daylight.towards), 0.0);
         irradiance += daylight.beam.w * facing * sunlit(daylight, sun_map, nearest, view / inverse_z, facing);
     }
     var seen = vec2f(irradiance, dot_peak) * albedo / PI;

@@ -26,7 +26,7 @@ struct InfraredSensor {
 @group(0) @binding(2) var<uniform> projector: Projector;
 @group(0) @binding(3) var<storage, read> directions: array<vec2f>;
 @group(0) @binding(4) var radiance: texture_2d<f32>;
-@group(0) @binding(5) var places: texture_2d<f32>;
+@group(0) @binding(5) var depths: texture_depth_2d;
 @group(0) @binding(6) var bilinear: sampler;
 @group(0) @binding(7) var nearest: sampler;
 @group(0) @binding(8) var tile: texture_2d<f32>;
@@ -41,7 +41,7 @@ const EDGE = 0.1;
 fn inverse_z_at(at: vec2f) -> f32 {
     let corner = floor(at - 0.5);
     // In order: lower left, lower right, upper right, upper left.
-    let around = textureGather(2, places, nearest, (corner + 1.0) / camera.gbuffer_size);
+    let around = textureGather(depths, nearest, (corner + 1.0) / camera.gbuffer_size) / camera.near;
     let share = at - 0.5 - corner;
     let low = min(min(around.x, around.y), min(around.z, around.w));
     let high = max(max(around.x, around.y), max(around.z, around.w));

@@ -19,8 +19,9 @@ struct Camera {
     readout: f32,
     // Brightness lost in the image's corners, share.
     vignetting: f32,
-    padding: f32,
-    more_padding: vec2f,
+    // Of the G-buffer's depth, near/z; metres.
+    near: f32,
+    padding: vec2f,
     // Unit vector in the world's frame, and nothing.
     towards_sun: vec4f,
 }

@@ -283,3 +283,41 @@ fn pose_key(pose: &DAffine3) -> u32 {
     let mixed = bits.iter().fold(0_u64, |key, bits| (key ^ bits).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29));
     (mixed >> 32) as u32
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DMat3, DVec3};
+
+    use super::*;
+    use crate::world::laboratory::{laboratory, loop_waypoints};
+
+    #[test]
+    fn what_walls_hide_is_not_missed() {
+        let mut world = laboratory(1);
+        for object in &mut world.objects {
+            object.mesh.irradiance = vec![[300.0, 300.0, 300.0, 0.1]; object.mesh.positions.len()];
+        }
+        let unit = || Kinect::new(&world, Calibration::nominal(), Imaging::default(), 1).expect("an adapter");
+        let (mut culling, mut drawing_all) = (unit(), unit());
+        drawing_all.renderer.forget_occluders();
+        let way = loop_waypoints();
+        let (mut most, mut most_of_all) = (0, 0);
+        for (at, pair) in way.windows(2).enumerate() {
+            let [from, to] = [pair[0], pair[1]].map(glam::DVec2::from);
+            let (ahead, eye) = ((to - from).normalize().extend(0.0), from.extend(0.6));
+            let axes = DMat3::from_cols(ahead.cross(DVec3::Z), DVec3::NEG_Z, ahead);
+            let sweep = Sweep::still(DAffine3::from_mat3_translation(axes, eye));
+            let most_of = |kinect: &Kinect| {
+                let drawn = kinect.renderer.triangles_drawn(&kinect.frame(&sweep, 0));
+                drawn.into_iter().max().unwrap_or(0)
+            };
+            most = most.max(most_of(&culling));
+            most_of_all = most_of_all.max(most_of(&drawing_all));
+            if at % 12 == 0 {
+                let images = |kinect: &mut Kinect| kinect.expose(&sweep, 0).expect("a frame");
+                assert!(images(&mut culling) == images(&mut drawing_all), "at {from}, looking along {ahead}");
+            }
+        }
+        assert!(most <= 20_000, "{most} triangles in a view, of {most_of_all}");
+    }
+}

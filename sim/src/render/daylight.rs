@@ -2,9 +2,10 @@
 
 use glam::{DAffine3, DMat4, DVec3, Mat4, Vec3, Vec4};
 
+use super::bounds::Bounds;
 use super::device::Device;
 use super::raster::{DepthMap, uniform_buffer};
-use super::scene::{Bounds, Scene};
+use super::scene::Scene;
 use super::uniforms;
 use crate::light::{Bands, Beam, LightState};
 

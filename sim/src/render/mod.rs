@@ -6,8 +6,10 @@
 //!
 //! Equal inputs give equal bytes, on one adapter and driver.
 
+mod bounds;
 mod daylight;
 mod device;
+mod occluder;
 mod passes;
 mod raster;
 mod readback;

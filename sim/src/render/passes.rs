@@ -123,15 +123,15 @@ pub(super) fn colour_passes(
     let size = view.gbuffer_size();
     let uniform = uniform_buffer(gpu, size_of::<uniforms::Camera>());
     let sensor_uniform = uniform_buffer(gpu, size_of::<ColourSensor>());
-    let gbuffer = GBuffer::new(gpu, size, &uniform, "colour_vertex");
+    let gbuffer = GBuffer::new(gpu, size, &uniform, "colour");
     let daylight_uniform = uniform_buffer(gpu, size_of::<uniforms::Daylight>());
     let luminance = light_target(gpu, size);
     let directions = directions_buffer(gpu, &view);
     let image = image_buffer(gpu, &optics.colour);
     let light = [
         Binding::Uniform(&uniform),
-        Binding::PreciseTexture(&gbuffer.places.view),
-        Binding::Texture(&gbuffer.lights.view),
+        Binding::Integers(&gbuffer.surfaces.view),
+        Binding::Depth(&gbuffer.depth.view),
         Binding::TextureArray(&scene.albedos),
         Binding::Linear(&samplers.repeating),
         Binding::Uniform(&daylight_uniform),
@@ -167,7 +167,7 @@ pub(super) fn infrared_passes(
     let size = view.gbuffer_size();
     let uniform = uniform_buffer(gpu, size_of::<uniforms::Camera>());
     let sensor_uniform = uniform_buffer(gpu, size_of::<InfraredSensor>());
-    let gbuffer = GBuffer::new(gpu, size, &uniform, "infrared_vertex");
+    let gbuffer = GBuffer::new(gpu, size, &uniform, "infrared");
     let daylight_uniform = uniform_buffer(gpu, size_of::<uniforms::Daylight>());
     let radiance = light_target(gpu, size);
     let directions = directions_buffer(gpu, &view);
@@ -175,8 +175,8 @@ pub(super) fn infrared_passes(
     let tile = tile_texture(gpu, &optics.projector);
     let light = [
         Binding::Uniform(&uniform),
-        Binding::PreciseTexture(&gbuffer.places.view),
-        Binding::Texture(&gbuffer.lights.view),
+        Binding::Integers(&gbuffer.surfaces.view),
+        Binding::Depth(&gbuffer.depth.view),
         Binding::TextureArray(&scene.albedos),
         Binding::Linear(&samplers.repeating),
         Binding::Uniform(projector),
@@ -192,7 +192,7 @@ pub(super) fn infrared_passes(
         Binding::Uniform(projector),
         Binding::Input(&directions),
         Binding::Texture(&radiance.view),
-        Binding::PreciseTexture(&gbuffer.places.view),
+        Binding::Depth(&gbuffer.depth.view),
         Binding::Linear(&samplers.bilinear),
         Binding::Nearest(&samplers.nearest),
         Binding::Texture(&tile),

@@ -8,9 +8,8 @@ use super::shader;
 use super::stage::{Binding, bind};
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// u, v, 1/z and the material need full floats; light does not.
-const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-const LIGHTS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// What it holds: `shaders/lib/surface.wgsl`.
+const SURFACE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// Something drawn into.
 pub(super) struct Target {
@@ -47,35 +46,33 @@ pub(super) fn uniform_buffer(gpu: &Device, size: usize) -> wgpu::Buffer {
 
 /// What a camera sees, before light.
 pub(super) struct GBuffer {
-    pub places: Target,
-    pub lights: Target,
-    depth: Target,
+    pub surfaces: Target,
+    /// near/z; 0: nothing there.
+    pub depth: Target,
     pipeline: wgpu::RenderPipeline,
     group: wgpu::BindGroup,
 }
 
 impl GBuffer {
-    /// `vertex`: which of the shader's two variants.
-    pub fn new(gpu: &Device, size: [u32; 2], camera: &wgpu::Buffer, vertex: &str) -> Self {
+    /// `band`: which of the shader's two variants, colour or infrared.
+    pub fn new(gpu: &Device, size: [u32; 2], camera: &wgpu::Buffer, band: &str) -> Self {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let (layout, group) = bind(gpu, wgpu::ShaderStages::VERTEX, &[Binding::Uniform(camera)]);
         let shader = shader::module(&gpu.device, "gbuffer");
-        let targets = [PLACES, LIGHTS].map(|format| Some(format.into()));
         let fragment = wgpu::FragmentState {
             module: &shader,
-            entry_point: Some("surface"),
+            entry_point: Some(&format!("{band}_surface")),
             compilation_options: Default::default(),
-            targets: &targets,
+            targets: &[Some(SURFACE.into())],
         };
         Self {
-            places: Target::new(gpu, size, PLACES, attachment | wgpu::TextureUsages::COPY_SRC),
-            lights: Target::new(gpu, size, LIGHTS, attachment),
-            depth: Target::new(gpu, size, DEPTH, attachment),
+            surfaces: Target::new(gpu, size, SURFACE, attachment),
+            depth: Target::new(gpu, size, DEPTH, attachment | wgpu::TextureUsages::COPY_SRC),
             pipeline: pipeline(
                 gpu,
                 &layout,
                 &shader,
-                vertex,
+                &format!("{band}_vertex"),
                 Some(fragment),
                 Default::default(),
                 Some(wgpu::Face::Back),
@@ -85,19 +82,13 @@ impl GBuffer {
     }
 
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, scene: &Scene, clip_from_world: &Mat4) {
-        let attachments = [&self.places, &self.lights].map(|target| {
-            Some(wgpu::RenderPassColorAttachment {
-                view: &target.view,
-                depth_slice: None,
-                resolve_target: None,
-                // 1/z = 0: nothing there.
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
+        let surfaces = Some(wgpu::RenderPassColorAttachment {
+            view: &self.surfaces.view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
         });
-        draw(encoder, &attachments, &self.depth, &self.pipeline, &self.group, scene, clip_from_world);
+        draw(encoder, &[surfaces], &self.depth, &self.pipeline, &self.group, scene, clip_from_world);
     }
 }
 

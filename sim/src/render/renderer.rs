@@ -180,24 +180,24 @@ impl Renderer {
     pub fn true_depth(&self) -> Result<Vec<f32>, RenderError> {
         let view = &self.infrared.view;
         let [width, height] = view.gbuffer_size();
-        let row_bytes = (16 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let row_bytes = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let readback = Readback::new(&self.gpu, u64::from(row_bytes * height));
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: Some(height) };
         encoder.copy_texture_to_buffer(
-            self.infrared.gbuffer.places.texture.as_image_copy(),
+            self.infrared.gbuffer.depth.texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo { buffer: readback.buffer(), layout },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
         self.gpu.queue.submit([encoder.finish()]);
         let (columns, rows) = view.model().size();
         readback.read(&self.gpu, |bytes| {
-            let places: &[[f32; 4]] = bytemuck::cast_slice(bytes);
+            let depths: &[f32] = bytemuck::cast_slice(bytes);
             (0..columns * rows)
                 .map(|index| {
                     let [x, y] = view.gbuffer_pixel(index % columns, index / columns);
-                    places[(y * row_bytes / 16 + x) as usize][2].recip()
+                    NEAR / depths[(y * row_bytes / 4 + x) as usize]
                 })
                 .collect()
         })
@@ -233,6 +233,18 @@ impl Renderer {
             colour_taps: self.colour.view.taps(&frame.colour),
             infrared_taps: self.infrared.view.taps(&frame.infrared),
         }
+    }
+
+    #[cfg(test)]
+    pub(crate) fn forget_occluders(&mut self) {
+        self.scene.forget_occluders();
+    }
+
+    /// Triangles drawn for each view: projector, colour, infrared.
+    #[cfg(test)]
+    pub(crate) fn triangles_drawn(&self, frame: &Frame) -> [usize; 3] {
+        let plan = self.prepare(frame);
+        [plan.projector_clip, plan.colour_clip, plan.infrared_clip].map(|clip| self.scene.triangles_drawn(&clip))
     }
 
     fn encode(&self, stage: usize, encoder: &mut wgpu::CommandEncoder, plan: &Plan) {

@@ -4,10 +4,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, Vec4, Vec4Swizzles};
+use glam::{Mat4, Vec3};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
+use super::bounds::{Bounds, frustum};
 use super::device::{Device, RenderError};
+use super::occluder::{Occluder, Shadow, eye};
 use super::texture::albedo_array;
 use crate::light::{Bands, LightState, each};
 use crate::world::transfer::{Transfer, Weights};
@@ -21,14 +23,19 @@ pub(super) struct Scene {
     indices: wgpu::Buffer,
     pub albedos: wgpu::TextureView,
     parts: Vec<Part>,
+    occluders: Vec<Occluder>,
 }
 
-/// One object's share of the buffers.
+/// An object's share of the buffers, or a piece of it.
 struct Part {
     bounds: Bounds,
     indices: Range<u32>,
     first_vertex: i32,
 }
+
+/// Parts with more triangles, and longer (metres), are divided. Guesses: a draw costs about what some dozen triangles do.
+const FEW_TRIANGLES: usize = 96;
+const LONG: f32 = 1.5;
 
 /// What the vertex shader reads besides the position.
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -92,6 +99,7 @@ impl Scene {
             indices: buffer("indices", bytemuck::cast_slice(&geometry.indices), wgpu::BufferUsages::INDEX),
             albedos: albedo_array(gpu, &world.materials)?,
             parts: geometry.parts,
+            occluders: world.objects.iter().flat_map(|object| Occluder::all_of(&object.mesh)).collect(),
         })
     }
 
@@ -112,19 +120,31 @@ impl Scene {
         Bounds::of(corners.filter(|corner| corner.is_finite()))
     }
 
+    /// What a view may show, near things first.
+    fn seen(&self, clip_from_world: &Mat4) -> impl Iterator<Item = &Part> {
+        let planes = frustum(clip_from_world);
+        let in_view = |bounds: &Bounds| planes.iter().all(|plane| bounds.reaches(plane));
+        let eye = eye(clip_from_world);
+        let shadows: Vec<Shadow> = (self.occluders.iter())
+            .filter(|occluder| in_view(&occluder.bounds()))
+            .filter_map(|occluder| occluder.shadow(eye?))
+            .collect();
+        let hidden = |bounds: &Bounds| shadows.iter().any(|shadow| shadow.hides(bounds));
+        let mut seen: Vec<(f32, &Part)> = (self.parts.iter())
+            .filter(|part| in_view(&part.bounds) && !hidden(&part.bounds))
+            .map(|part| (clip_from_world.mul_vec4(part.bounds.middle().extend(1.0)).w, part))
+            .collect();
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+        seen.into_iter().map(|(_, part)| part)
+    }
+
     /// Draws what a view may show, near things first, so that what they hide costs little.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, clip_from_world: &Mat4) {
         pass.set_vertex_buffer(0, self.positions.slice(..));
         pass.set_vertex_buffer(1, self.attributes.slice(..));
         pass.set_vertex_buffer(2, self.irradiances.buffer.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let planes = frustum(clip_from_world);
-        let mut seen: Vec<(f32, &Part)> = (self.parts.iter())
-            .filter(|part| planes.iter().all(|plane| part.bounds.reaches(plane)))
-            .map(|part| (clip_from_world.mul_vec4(part.bounds.middle().extend(1.0)).w, part))
-            .collect();
-        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, part) in seen {
+        for part in self.seen(clip_from_world) {
             pass.draw_indexed(part.indices.clone(), part.first_vertex, 0..1);
         }
     }
@@ -138,37 +158,6 @@ fn with(constant: &[Bands], light: &[Bands]) -> Vec<Bands> {
     constant.iter().zip(light).map(|(constant, light)| each(|band| constant[band] + light[band])).collect()
 }
 
-/// A box along the world's axes, metres.
-pub(super) struct Bounds {
-    pub lowest: Vec3,
-    pub highest: Vec3,
-}
-
-impl Bounds {
-    fn of(positions: impl Iterator<Item = Vec3>) -> Self {
-        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (lowest, highest) =
-            positions.fold(none, |(lowest, highest), position| (lowest.min(position), highest.max(position)));
-        Self { lowest, highest }
-    }
-
-    fn middle(&self) -> Vec3 {
-        (self.lowest + self.highest) / 2.0
-    }
-
-    /// Whether some of it lies on a plane's inner side.
-    fn reaches(&self, plane: &Vec4) -> bool {
-        let furthest = Vec3::select(plane.xyz().cmpge(Vec3::ZERO), self.highest, self.lowest);
-        plane.xyz().dot(furthest) + plane.w >= 0.0
-    }
-}
-
-/// The planes a view ends at: left, right, bottom, top, near. Points inside have positive products with all.
-fn frustum(clip_from_world: &Mat4) -> [Vec4; 5] {
-    let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row));
-    [w + x, w - x, w + y, w - y, w - z]
-}
-
 #[derive(Default)]
 struct Geometry {
     positions: Vec<[f32; 3]>,
@@ -180,7 +169,6 @@ struct Geometry {
 
 impl Geometry {
     fn add(&mut self, mesh: &Mesh, material: u32) {
-        let first_index = 3 * self.indices.len() as u32;
         let first_vertex = self.positions.len() as i32;
         self.positions.extend_from_slice(&mesh.positions);
         self.attributes.extend((0..mesh.positions.len()).map(|vertex| {
@@ -189,31 +177,38 @@ impl Geometry {
         }));
         let constant = |vertex| mesh.irradiance.get(vertex).copied().unwrap_or_default();
         self.irradiances.extend((0..mesh.positions.len()).map(constant));
-        self.indices.extend_from_slice(&mesh.triangles);
+        self.divide(mesh, &mut mesh.triangles.clone(), first_vertex);
+    }
+
+    /// Makes parts of triangles: long things in pieces, so that a view can leave out most of a floor.
+    fn divide(&mut self, mesh: &Mesh, triangles: &mut [[u32; 3]], first_vertex: i32) {
+        let corners = |triangle: &[u32; 3]| mesh.corners(*triangle);
+        let bounds = Bounds::of(triangles.iter().flat_map(corners));
+        let longest = bounds.size().max_position();
+        if triangles.len() > FEW_TRIANGLES && bounds.size()[longest] > LONG {
+            let middle = |triangle: &[u32; 3]| corners(triangle).into_iter().sum::<Vec3>()[longest];
+            triangles.sort_by(|a, b| middle(a).total_cmp(&middle(b)));
+            let (low, high) = triangles.split_at_mut(triangles.len() / 2);
+            self.divide(mesh, low, first_vertex);
+            self.divide(mesh, high, first_vertex);
+            return;
+        }
+        let first_index = 3 * self.indices.len() as u32;
+        self.indices.extend_from_slice(triangles);
         let indices = first_index..3 * self.indices.len() as u32;
-        self.parts.push(Part {
-            bounds: Bounds::of(mesh.positions.iter().map(|&position| position.into())),
-            indices,
-            first_vertex,
-        });
+        self.parts.push(Part { bounds, indices, first_vertex });
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::render::view::clip_from_camera;
-    use glam::Vec2;
+impl Scene {
+    /// Has everything in view drawn, hidden or not.
+    pub fn forget_occluders(&mut self) {
+        self.occluders.clear();
+    }
 
-    #[test]
-    fn a_view_shows_what_reaches_into_it_and_nothing_else() {
-        let clip = clip_from_camera(Vec2::splat(500.0), Vec2::new(320.0, 240.0), Vec2::new(640.0, 480.0), 0.1);
-        let shown = |x: f32, y: f32, z: f32| {
-            let middle = Vec3::new(x, y, z);
-            let bounds = Bounds { lowest: middle - 0.5, highest: middle + 0.5 };
-            frustum(&clip).iter().all(|plane| bounds.reaches(plane))
-        };
-        assert!(shown(0.0, 0.0, 5.0) && shown(3.5, 0.0, 5.0) && shown(0.0, -2.8, 5.0) && shown(0.0, 0.0, 0.0));
-        assert!(!shown(5.0, 0.0, 5.0) && !shown(0.0, -4.0, 5.0) && !shown(0.0, 0.0, -2.0));
+    /// How many triangles a view has drawn.
+    pub fn triangles_drawn(&self, clip_from_world: &Mat4) -> usize {
+        self.seen(clip_from_world).map(|part| part.indices.len() / 3).sum()
     }
 }

@@ -13,8 +13,8 @@ pub(super) enum Binding<'a> {
     Input(&'a wgpu::Buffer),
     /// `texture_2d<f32>` of a format that can be filtered.
     Texture(&'a wgpu::TextureView),
-    /// `texture_2d<f32>` of full floats, which not every device filters.
-    PreciseTexture(&'a wgpu::TextureView),
+    /// `texture_2d<u32>`.
+    Integers(&'a wgpu::TextureView),
     /// `texture_2d_array<f32>`.
     TextureArray(&'a wgpu::TextureView),
     /// `texture_depth_2d`.
@@ -35,15 +35,15 @@ impl<'a> Binding<'a> {
             view_dimension,
             multisampled: false,
         };
-        let float = |filterable| wgpu::TextureSampleType::Float { filterable };
+        let float = wgpu::TextureSampleType::Float { filterable: true };
         let (flat, layered) = (wgpu::TextureViewDimension::D2, wgpu::TextureViewDimension::D2Array);
         match self {
             Self::Uniform(_) => buffer(wgpu::BufferBindingType::Uniform),
             Self::Input(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
             Self::Output(_) => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
-            Self::Texture(_) => texture(float(true), flat),
-            Self::PreciseTexture(_) => texture(float(false), flat),
-            Self::TextureArray(_) => texture(float(true), layered),
+            Self::Texture(_) => texture(float, flat),
+            Self::Integers(_) => texture(wgpu::TextureSampleType::Uint, flat),
+            Self::TextureArray(_) => texture(float, layered),
             Self::Depth(_) => texture(wgpu::TextureSampleType::Depth, flat),
             Self::OutputTexture(_) => wgpu::BindingType::StorageTexture {
                 access: wgpu::StorageTextureAccess::WriteOnly,
@@ -59,7 +59,7 @@ impl<'a> Binding<'a> {
         match self {
             Self::Uniform(buffer) | Self::Input(buffer) | Self::Output(buffer) => buffer.as_entire_binding(),
             Self::Texture(view)
-            | Self::PreciseTexture(view)
+            | Self::Integers(view)
             | Self::TextureArray(view)
             | Self::Depth(view)
             | Self::OutputTexture(view) => wgpu::BindingResource::TextureView(view),

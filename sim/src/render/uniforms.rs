@@ -19,8 +19,8 @@ pub(super) struct Camera {
     pub exposure: f32,
     pub readout: f32,
     pub vignetting: f32,
-    pub padding: f32,
-    pub more_padding: Vec2,
+    pub near: f32,
+    pub padding: Vec2,
     pub towards_sun: Vec4,
 }
 
@@ -132,7 +132,7 @@ mod tests {
     fn layouts_are_those_of_the_shaders() {
         assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, start_from_camera,
             end_from_camera, focal, centre, margin, gbuffer_size, size, exposure, readout,
-            vignetting, padding, more_padding, towards_sun);
+            vignetting, near, padding, towards_sun);
         assert_same_layout!("lib/daylight", Daylight: map_from_camera, beam, level, rise, glow, ground, towards,
             map_size, up, map_step);
         assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,

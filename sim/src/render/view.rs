@@ -136,8 +136,8 @@ impl View {
             exposure: frame.exposure,
             readout: frame.readout,
             vignetting: frame.vignetting,
-            padding: 0.0,
-            more_padding: Vec2::ZERO,
+            near: NEAR,
+            padding: Vec2::ZERO,
             towards_sun: towards_sun.extend(0.0),
         }
     }
