@@ -27,7 +27,7 @@ fn localizers(scenario: &Scenario, simulator_or_recording: &sunblind_estimator::
 }
 
 fn drive(scenario: &Scenario, recording: Option<&Path>) -> RunLog {
-    let world = scenario.lit_world(&|_| {});
+    let world = scenario.lit_world(&|_| {}).unwrap();
     let mut simulator = Simulator::new(scenario, &world).unwrap();
     let calibration = simulator.calibration().clone();
     let writer = recording.map(|folder| RecordingWriter::create(folder, &calibration).unwrap());

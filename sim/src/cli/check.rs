@@ -7,8 +7,9 @@ use clap::Args;
 
 use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer};
+use crate::scenario::light::lamp_groups;
 use crate::scenario::meaning::Obstacles;
-use crate::scenario::{AnyScenario, ScenarioError, WorldName};
+use crate::scenario::{AnyScenario, ScenarioError, World};
 
 const HELP: &str = "\
 Examples:
@@ -47,11 +48,20 @@ impl Check {
     }
 
     /// `worlds`: those that are built already.
-    fn check(&self, file: &Path, worlds: &mut BTreeMap<WorldName, Obstacles>) -> Result<AnyScenario, ScenarioError> {
+    fn check(
+        &self,
+        file: &Path,
+        worlds: &mut BTreeMap<World, (Obstacles, Vec<String>)>,
+    ) -> Result<AnyScenario, ScenarioError> {
         let (source, scenario) = self.changes.load(file)?;
         if let AnyScenario::Robot(scenario) = &scenario {
-            let name = scenario.world.name;
-            let obstacles = worlds.entry(name).or_insert_with(|| Obstacles::of(&name.build()));
+            let world = &scenario.world;
+            if !worlds.contains_key(world) {
+                let built = world.build().map_err(|fault| source.blame(fault))?;
+                worlds.insert(world.clone(), (Obstacles::of(&built), lamp_groups(&built)));
+            }
+            let (obstacles, groups) = &worlds[world];
+            scenario.light.check_groups(groups).map_err(|fault| source.blame(fault))?;
             scenario.check_way(|from, to| obstacles.leave_free(from, to)).map_err(|fault| source.blame(fault))?;
         }
         Ok(scenario)

@@ -16,7 +16,8 @@ use crate::kinect::{FRAME_INTERVAL, Kinect};
 use crate::new_folder::{FolderError, Kind, NewFolder};
 use crate::render::{Adapter, RenderError, Sweep};
 use crate::robot::RobotModel;
-use crate::scenario::{AnyScenario, Fault, Scenario};
+use crate::scenario::light::lamp_groups;
+use crate::scenario::{AnyScenario, Fault, Scenario, Source};
 use crate::world::World;
 use crate::world::ground::Ground;
 
@@ -90,6 +91,7 @@ fn holds_only(folder: &Path, ours: impl Fn(&Path) -> bool) -> bool {
 /// A scenario's file, read.
 struct Shot {
     name: String,
+    source: Source,
     scenario: Box<Scenario>,
     path: guidance::Path,
     robot: RobotModel,
@@ -109,7 +111,7 @@ impl Render {
         Adapter::find()?;
         let mut rows = Vec::new();
         for shot in &shots {
-            let mut view = View::new(&shot.scenario, &stage::lit_world(&shot.scenario), &shot.robot)?;
+            let mut view = View::new(&shot.scenario, &stage::lit_world(&shot.source, &shot.scenario)?, &shot.robot)?;
             for &at in &self.instants {
                 let seen = view.at(at, &shot.path.at(at * shot.scenario.path.speed))?;
                 let mut row = seen.into_row();
@@ -143,7 +145,7 @@ impl Render {
             return Err(Failure::BeyondPath { at, end });
         }
         let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        Ok(Shot { name, scenario, path, robot })
+        Ok(Shot { name, source, scenario, path, robot })
     }
 
     fn unwritable(&self, source: io::Error) -> FolderError {
@@ -157,6 +159,7 @@ struct View<'a> {
     kinect: Kinect,
     robot_from_infrared: Isometry3<f64>,
     ground: Ground,
+    lamp_groups: Vec<String>,
     /// From the robot's middle to its axles, metres.
     reach: f64,
 }
@@ -177,13 +180,15 @@ impl<'a> View<'a> {
         let robot_from_infrared = robot.robot_from_camera * calibration.colour_from_infrared;
         let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
         let (ground, reach) = (world.ground.clone(), robot.wheelbase() / 2.0);
-        Ok(Self { scenario, kinect, robot_from_infrared, ground, reach })
+        let lamp_groups = lamp_groups(world);
+        Ok(Self { scenario, kinect, robot_from_infrared, ground, lamp_groups, reach })
     }
 
     /// `at`: seconds after the start.
     fn at(&mut self, at: f64, place: &PathPoint) -> Result<Seen, RenderError> {
         // An image of another place, long ago, says nothing of the exposure here.
         self.kinect.restart();
+        self.kinect.illuminate(&self.scenario.light.at(at, &self.lamp_groups));
         let frame = self.kinect.capture(&self.sweep(place), (at * self.scenario.kinect.rate).round() as u64)?;
         let true_depth = self.kinect.true_depth()?;
         let camera = self.kinect.calibration().rig(Isometry3::identity()).depth;

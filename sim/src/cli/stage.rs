@@ -17,19 +17,22 @@ use crate::world::World;
 /// When something stands in the path's way, or nothing here can render.
 pub(super) fn world(source: &Source, scenario: &Scenario) -> Result<World, Failure> {
     // Before the light, which may take a while.
-    let obstacles = Obstacles::of(&scenario.world.name.build());
+    let obstacles = Obstacles::of(&scenario.world.build().map_err(|fault| source.blame(fault))?);
     scenario.check_way(|from, to| obstacles.leave_free(from, to)).map_err(|fault| source.blame(fault))?;
     Adapter::find()?;
-    Ok(lit_world(scenario))
+    lit_world(source, scenario)
 }
 
 /// The scenario's world under its light, with a bar for as long as that takes.
-pub(super) fn lit_world(scenario: &Scenario) -> World {
+///
+/// # Errors
+/// There is no such world, or it has no such lamps.
+pub(super) fn lit_world(source: &Source, scenario: &Scenario) -> Result<World, Failure> {
     let style = ProgressStyle::with_template("light, once for a world {wide_bar} {percent} %");
     let bar = ProgressBar::new(100).with_style(style.expect("the template is well formed"));
     let world = scenario.lit_world(&|share| bar.set_position((100.0 * share) as u64));
     bar.finish_and_clear();
-    world
+    Ok(world.map_err(|fault| source.blame(fault))?)
 }
 
 /// The robot at its start.

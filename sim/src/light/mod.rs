@@ -69,6 +69,11 @@ impl LightState {
         light
     }
 
+    /// A day without a sun, `scale` times as bright as [`OVERCAST_DAY`].
+    pub fn overcast_day(scale: f32) -> Self {
+        Self { windows: [scale; 4], sky: Sky::overcast(OVERCAST_DAY.map(|light| scale * light)), ..Self::default() }
+    }
+
     /// Another source of daylight beside this one, as the moon beside a sun that has set. The stronger beam stays; the
     /// other is too weak to be seen beside it.
     pub fn and(self, other: &Self) -> Self {

@@ -24,8 +24,6 @@ const WARM_UP: RangeInclusive<f64> = 0.0..=86_400.0;
 /// Beyond, nobody has calibrated anything: pixels, degrees.
 const RESIDUAL_PX: RangeInclusive<f64> = 0.0..=50.0;
 const RESIDUAL_DEG: RangeInclusive<f64> = 0.0..=5.0;
-/// Direct sun on a window is some 30 times an overcast day.
-const DAYLIGHT: RangeInclusive<f64> = 0.0..=100.0;
 /// Worlds are smaller, metres.
 const COORDINATE: RangeInclusive<f64> = -1000.0..=1000.0;
 const HEADING: RangeInclusive<f64> = -360.0..=360.0;
@@ -40,7 +38,8 @@ impl Scenario {
     /// The first thing that makes no sense.
     pub fn check(&self) -> Result<(), Fault> {
         number("duration_s", self.duration, DURATION)?;
-        number("light.daylight_scale", self.light.daylight_scale, DAYLIGHT)?;
+        self.check_world()?;
+        self.light.check()?;
         self.kinect.check()?;
         self.check_robot()?;
         if self.duration * self.kinect.rate < 1.0 {
@@ -57,6 +56,14 @@ impl Scenario {
         }
         all("expect", &self.expect, Expectation::check)?;
         all("short.expect", &self.short.expect, Expectation::check)
+    }
+
+    fn check_world(&self) -> Result<(), Fault> {
+        match (self.world.name, &self.world.gltf) {
+            // What the file holds is seen when it is read.
+            (Some(_), None) | (None, Some(_)) => Ok(()),
+            _ => self.world.build().map(drop),
+        }
     }
 
     fn check_robot(&self) -> Result<(), Fault> {
@@ -122,7 +129,7 @@ fn all<T>(list: &str, items: &[T], check: impl Fn(&T) -> Result<(), Fault>) -> R
     Ok(())
 }
 
-fn number(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<(), Fault> {
+pub(super) fn number(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<(), Fault> {
     if range.contains(&value) {
         return Ok(());
     }
@@ -132,7 +139,7 @@ fn number(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<(), Fault
     Err(Fault::new(key, problem))
 }
 
-fn optional(key: &str, value: Option<f64>, range: RangeInclusive<f64>) -> Result<(), Fault> {
+pub(super) fn optional(key: &str, value: Option<f64>, range: RangeInclusive<f64>) -> Result<(), Fault> {
     value.map_or(Ok(()), |value| number(key, value, range))
 }
 

@@ -51,6 +51,9 @@ impl Source {
                 if let (Some(urdf), Some(folder)) = (&mut scenario.robot.urdf, self.file().parent()) {
                     *urdf = folder.join(&urdf);
                 }
+                if let (Some(gltf), Some(folder)) = (&mut scenario.world.gltf, self.file().parent()) {
+                    *gltf = folder.join(&gltf);
+                }
                 scenario.check().map_err(blame)?;
                 Ok(AnyScenario::Robot(Box::new(scenario)))
             }

@@ -3,14 +3,15 @@
 use glam::DVec3;
 use nalgebra::Point2;
 
+use super::light::lamp_groups;
 use super::{Fault, Floor, Robot, Scenario, WorldName};
 use crate::kinect::Imaging;
 use crate::kinect::calibration::{Calibration, Residual};
-use crate::light::LightState;
 use crate::physics::{self, FloorPlan};
 use crate::robot::{CameraMount, InertialNoise, RobotModel};
 use crate::world::bake::{Effort, bake_cached, cache_folder};
 use crate::world::campus::campus;
+use crate::world::gltf;
 use crate::world::ground::Ground;
 use crate::world::laboratory::laboratory;
 use crate::world::rays::Rays;
@@ -27,6 +28,24 @@ impl WorldName {
             Self::Laboratory => laboratory(WORLD_SEED),
             Self::Yard => yard(WORLD_SEED),
             Self::Campus => campus(WORLD_SEED),
+        }
+    }
+}
+
+impl super::World {
+    /// Builds the world, without its light.
+    ///
+    /// # Errors
+    /// Neither a name nor a file, both, or a file that gives no world.
+    pub fn build(&self) -> Result<World, Fault> {
+        match (self.name, &self.gltf) {
+            (Some(name), None) => Ok(name.build()),
+            (None, Some(file)) => gltf::load(file).map_err(|error| Fault::new("world.gltf", error.to_string())),
+            (None, None) => Err(Fault::new(
+                "world",
+                "which world? write name = \"laboratory\", or gltf = \"file.glb\" for your own",
+            )),
+            (Some(_), Some(_)) => Err(Fault::new("world.gltf", "a file beside a name: delete one of them")),
         }
     }
 }
@@ -59,14 +78,6 @@ impl Robot {
     }
 }
 
-impl From<super::Light> for LightState {
-    fn from(light: super::Light) -> Self {
-        let lamps = [("ceiling", f32::from(u8::from(light.lamps)))];
-        let lamps = lamps.into_iter().map(|(group, brightness)| (group.to_owned(), brightness)).collect();
-        Self { lamps, windows: [light.daylight_scale as f32; 4], ..Self::default() }
-    }
-}
-
 impl From<super::Kinect> for Imaging {
     fn from(kinect: super::Kinect) -> Self {
         Self {
@@ -96,11 +107,15 @@ impl super::Kinect {
 impl Scenario {
     /// The world, with the ways that light takes in it. That takes half a minute once for a world, and is kept in the
     /// user's [`cache_folder`]. `progress` is told the share done, 0 to 1, from any thread.
-    pub fn lit_world(&self, progress: &(dyn Fn(f32) + Sync)) -> World {
-        let mut world = self.world.name.build();
+    ///
+    /// # Errors
+    /// There is no such world, or it has no such lamps.
+    pub fn lit_world(&self, progress: &(dyn Fn(f32) + Sync)) -> Result<World, Fault> {
+        let mut world = self.world.build()?;
+        self.light.check_groups(&lamp_groups(&world))?;
         // Where nothing can be kept the light is computed each time, and is the same.
         let _ = bake_cached(&mut world, &Effort::default(), &cache_folder(), progress);
-        world
+        Ok(world)
     }
 
     /// The robot with its Kinect mounted, and with a gyro if one is wanted.

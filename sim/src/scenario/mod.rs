@@ -3,12 +3,13 @@
 //!
 //! The structs here are the file: field by field they are read, written and described in the JSON Schema. A few units
 //! are not SI; such fields keep the unit in their name. From top to bottom: `load` reads a file with its `overrides`,
-//! `source` knows where each key stands, `check` finds numbers that make no sense, `path` makes a path of what is
+//! `source` knows where each key stands, `check` finds numbers that make no sense, `light` knows what shines when, `path` makes a path of what is
 //! written, `meaning` the world, the floors and the robot, `expect` judges a run.
 
 mod check;
 pub mod error;
 pub mod expect;
+pub mod light;
 mod load;
 pub mod meaning;
 pub mod overrides;
@@ -28,6 +29,7 @@ use sunblind_estimator::{EstimatorParams, PoseSource};
 pub use crate::kinect::InfraredExposure;
 pub use error::{Fault, ScenarioError};
 pub use expect::Expectation;
+pub use light::Light;
 pub use load::{AnyScenario, load};
 pub use overrides::Override;
 pub use path::PathSpec;
@@ -70,11 +72,14 @@ pub struct Scenario {
 }
 
 /// Where a scenario happens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct World {
     /// Which world.
-    pub name: WorldName,
+    pub name: Option<WorldName>,
+    /// A world of one's own instead: a glTF 2.0 file (.glb, .gltf), relative to the scenario's. It lies under the open
+    /// sky. A material's extras may hold `"albedo_830nm": 0.4`; else it is the largest of its visible albedos.
+    pub gltf: Option<PathBuf>,
 }
 
 /// The worlds that a robot can drive through.
@@ -87,22 +92,6 @@ pub enum WorldName {
     Yard,
     /// The laboratory, the yard before its door and a tunnel behind the yard, 26 × 40 m in all.
     Campus,
-}
-
-/// What shines. The same for the whole run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Light {
-    /// Whether the lamps are on.
-    pub lamps: bool,
-    /// What comes through the windows, in multiples of an overcast day; 0 is night.
-    pub daylight_scale: f64,
-}
-
-impl Default for Light {
-    fn default() -> Self {
-        Self { lamps: true, daylight_scale: 1.0 }
-    }
 }
 
 /// The robot and the floor under it.

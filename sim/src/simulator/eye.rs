@@ -13,6 +13,7 @@ use sunblind_estimator::{MeasurementData, Timestamp};
 
 use super::video::Carried;
 use crate::kinect::{Kinect, KinectFrame};
+use crate::light::LightState;
 use crate::render::{Adapter, RenderError, Sweep};
 
 /// One frame's images, of one instant.
@@ -27,6 +28,7 @@ pub(super) struct Images {
 struct Order {
     captured_at: Timestamp,
     world_from_infrared: Sweep,
+    light: LightState,
     carried: Carried,
     frame: u64,
 }
@@ -68,8 +70,8 @@ impl Eye {
     }
 
     /// Has a frame taken, exposed about `captured_at`.
-    pub fn capture(&mut self, captured_at: Timestamp, world_from_infrared: Sweep, carried: Carried) {
-        let order = Order { captured_at, world_from_infrared, carried, frame: self.ordered };
+    pub fn capture(&mut self, captured_at: Timestamp, world_from_infrared: Sweep, light: LightState, carried: Carried) {
+        let order = Order { captured_at, world_from_infrared, light, carried, frame: self.ordered };
         self.ordered += 1;
         self.open.push_back(captured_at);
         if let Some(orders) = &self.orders {
@@ -111,6 +113,7 @@ impl Drop for Eye {
 }
 
 fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images, RenderError> {
+    kinect.illuminate(&order.light);
     let exposed = kinect.expose(&order.world_from_infrared, order.frame)?;
     let started = ThreadTime::now();
     let KinectFrame { rgb, infrared, mut depth_raw } = kinect.develop(exposed);

@@ -20,7 +20,8 @@ use crate::random::stream;
 use crate::record::{Arrival, Body, Calibration, Latency, Sensor};
 use crate::render::{Adapter, RenderError, Sweep};
 use crate::robot::VelocityCommand;
-use crate::scenario::{Fault, Scenario, StreamMode};
+use crate::scenario::light::lamp_groups;
+use crate::scenario::{Fault, Light, Scenario, StreamMode};
 use crate::truth;
 use crate::world::World;
 use eye::{Eye, Images};
@@ -64,6 +65,8 @@ pub struct Simulator {
     video: Video,
     calibration: Calibration,
     robot_from_infrared: Isometry3<f64>,
+    light: Light,
+    lamp_groups: Vec<String>,
     /// Of the readings since the last one that was sent: sum and count.
     gyro: (Vector3<f64>, f64),
     under_way: BTreeMap<Arrival, Measurement>,
@@ -105,6 +108,8 @@ impl Simulator {
             },
             calibration: Calibration { rig, body: Body::Robot, latency },
             robot_from_infrared,
+            light: scenario.light.clone(),
+            lamp_groups: lamp_groups(world),
             gyro: (Vector3::zeros(), 0.0),
             under_way: BTreeMap::new(),
             depth_cost: Duration::ZERO,
@@ -206,7 +211,8 @@ impl Simulator {
         };
         let sweep = Sweep::between(&world_from_infrared(captured_at - half), &world_from_infrared(captured_at + half));
         let carried = self.video.carries(Timestamp::from_nanos(captured_at - half));
-        self.eye.capture(Timestamp::from_nanos(captured_at), sweep, carried);
+        let light = self.light.at(captured_at as f64 * 1e-9, &self.lamp_groups);
+        self.eye.capture(Timestamp::from_nanos(captured_at), sweep, light, carried);
     }
 
     /// Waits for the frames that must have arrived by now.

@@ -11,7 +11,7 @@ const BAND: [f32; 2] = [0.1, 0.85];
 /// What is narrower is a line, millimetres.
 const LINE: f64 = 20.0;
 /// A line of something that rises higher is a wall, metres: no furniture's side does.
-const WALL: f32 = 2.3;
+const WALL: f32 = 2.15;
 /// What is smaller is left out (a chair's leg), millimetres.
 const SMALLEST: f64 = 100.0;
 

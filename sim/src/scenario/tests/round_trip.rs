@@ -140,17 +140,34 @@ fn expectations() -> impl Strategy<Value = Vec<Expectation>> {
     prop::collection::vec(expectation, 0..3)
 }
 
+fn light() -> impl Strategy<Value = Light> {
+    let direction = (-90.0..90.0, -360.0..360.0)
+        .prop_map(|(elevation_deg, azimuth_deg)| light::Direction { elevation_deg, azimuth_deg });
+    let change = (0.0..10.0, option::of(any::<bool>()), option::of(0.0..1.0), option::of(0.0..9.0)).prop_map(
+        |(over_s, lamps, cloud_cover, brightness)| light::Change {
+            at_s: 5.0,
+            over_s,
+            lamps,
+            cloud_cover,
+            lamp_brightness: brightness.map(|value| ("ceiling".to_owned(), value)).into_iter().collect(),
+            ..light::Change::default()
+        },
+    );
+    (option::of(direction), 0.0..1.0, prop::collection::vec(change, 0..3))
+        .prop_map(|(sun, cloud_cover, timeline)| Light { sun, cloud_cover, timeline, ..Light::default() })
+}
+
 prop_compose! {
     fn scenario()(
         seed in 0..i64::MAX as u64, duration in 10.0..3600.0, lamps: bool, daylight_scale in 0.0..100.0,
-        robot in robot(), kinect in kinect(), path in path(), estimator in estimator(), expect in expectations(),
+        light in light(), robot in robot(), kinect in kinect(), path in path(), estimator in estimator(), expect in expectations(),
         short in (option::of(1.0..10.0), expectations()),
     ) -> Scenario {
         Scenario {
             seed,
             duration,
-            world: World { name: WorldName::Laboratory },
-            light: Light { lamps, daylight_scale },
+            world: World { name: Some(WorldName::Laboratory), gltf: None },
+            light: Light { lamps, daylight_scale, ..light },
             robot,
             kinect,
             path,

@@ -96,6 +96,7 @@ pub(super) fn build(scene: &mut Scene, seed: u64, outer_door: OuterDoor) {
         OuterDoor::Open => {
             building::outlook(scene, "outlook east", [17.0, 14.0], [17.0, 0.0]);
             building::outlook(scene, "outlook south", [17.0, 0.0], [EAST, 0.0]);
+            building::outlook(scene, "outlook west", [-5.0, NORTH], [-5.0, 14.0]);
         }
     }
 }

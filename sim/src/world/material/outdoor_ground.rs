@@ -2,6 +2,7 @@
 
 use super::canvas::{Canvas, Coat};
 use super::noise::{fractal, hash, smooth};
+use super::outdoor_plants::shaded;
 use super::substance::*;
 
 /// A colour of one substance, brighter or darker by `factor`.
@@ -123,7 +124,7 @@ pub fn concrete(size: [f32; 2], seed: u32) -> Canvas {
 
 /// A mown lawn: blades of many greens, dry ones among them, clover, bare spots.
 pub fn lawn(size: [f32; 2], seed: u32) -> Canvas {
-    let mut canvas = Canvas::new(size, GRASS.map(|albedo| 0.45 * albedo));
+    let mut canvas = Canvas::new(size, shaded(GRASS, 0.45));
     let [width, height] = size;
     canvas.shade(|x, y| 0.6 + 0.8 * fractal(x / width, y / height, [20, 20], 3, seed + 9));
     for blade in 0..15_000 {
@@ -135,7 +136,7 @@ pub fn lawn(size: [f32; 2], seed: u32) -> Canvas {
         let coat = match hash(blade, 5, seed) {
             0.93.. => toned([0.30, 0.25, 0.13, 0.5], 0.6 + 0.6 * tone),
             _ => {
-                let [r, g, b, infrared] = GRASS.map(|albedo| albedo * (0.55 + 0.55 * tone + 0.6 * lush));
+                let [r, g, b, infrared] = shaded(GRASS, 0.55 + 0.55 * tone + 0.6 * lush);
                 // Where it is less lush it is yellower.
                 Coat::Opaque([r * (1.5 - 0.9 * lush), g, b * (0.7 + 0.4 * lush), infrared.min(0.62)])
             }

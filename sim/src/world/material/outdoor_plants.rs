@@ -1,14 +1,20 @@
-//! Leaves, bark, blossoms. Leaves are dark in visible light and bright at 830 nm; the gaps between them are dark in
-//! both.
+//! Leaves, bark, blossoms. Leaves are dark in visible light and bright at 830 nm. The gaps between them are dark in
+//! visible light; at 830 nm leaves pass on nearly half of what they get, so gaps are half as dark.
 
 use super::canvas::{Canvas, Coat};
 use super::noise::{fractal, hash};
 use super::outdoor_ground::repeated;
 use super::substance::*;
 
+/// Green that gets a share of the light: at 830 nm what passes through leaves fills in half of the shade. A guess.
+pub fn shaded(green: Substance, share: f32) -> Substance {
+    let [r, g, b, infrared] = green;
+    [r * share, g * share, b * share, infrared * (0.5 + 0.5 * share)]
+}
+
 /// Leaves of about `length` metres, the later the nearer and the brighter.
 fn leaves(size: [f32; 2], green: Substance, count: u32, length: f32, seed: u32) -> Canvas {
-    let mut canvas = Canvas::new(size, green.map(|albedo| 0.16 * albedo));
+    let mut canvas = Canvas::new(size, shaded(green, 0.16));
     let [width, height] = size;
     for leaf in 0..count {
         let [x, y, turn, tone] = [0, 1, 2, 3].map(|i| hash(leaf, i, seed));
@@ -17,7 +23,7 @@ fn leaves(size: [f32; 2], green: Substance, count: u32, length: f32, seed: u32) 
         // Deep ones are in the shade of those above.
         let depth = leaf as f32 / count as f32;
         let lit = (0.22 + 0.95 * depth) * (0.7 + 0.6 * tone);
-        let [r, g, b, infrared] = green.map(|albedo| albedo * lit);
+        let [r, g, b, infrared] = shaded(green, lit);
         let yellow = 0.6 * hash(leaf, 5, seed);
         let coat = Coat::Opaque([r * (0.8 + yellow), g, b * (1.1 - 0.5 * yellow), infrared.min(0.62)]);
         let rib = Coat::Opaque([r * 1.5, g * 1.4, b * 1.3, infrared.min(0.6)]);
@@ -49,13 +55,13 @@ pub fn hedge(size: [f32; 2], seed: u32) -> Canvas {
 
 /// Sprays of a conifer: bluish, narrow.
 pub fn needles(size: [f32; 2], seed: u32) -> Canvas {
-    let mut canvas = Canvas::new(size, NEEDLES.map(|albedo| 0.15 * albedo));
+    let mut canvas = Canvas::new(size, shaded(NEEDLES, 0.15));
     let [width, height] = size;
     for needle in 0..7000 {
         let [x, y, turn, tone] = [0, 1, 2, 3].map(|i| hash(needle, i, seed));
         let (sin, cos) = (1.57 + 1.6 * (turn - 0.5)).sin_cos();
         let lit = (0.2 + 0.9 * needle as f32 / 7000.0) * (0.6 + 0.8 * tone);
-        let coat = Coat::Opaque(NEEDLES.map(|albedo| albedo * lit));
+        let coat = Coat::Opaque(shaded(NEEDLES, lit));
         repeated(size, [x * width, y * height], 0.04, |[x, y]| {
             canvas.line([x, y], [x + 0.03 * cos, y + 0.03 * sin], 0.004, coat);
         });

@@ -30,8 +30,8 @@ use houses::{Facade, Fill, Opening, fence, wall};
 use land::on_ground;
 use plants::{conifer, flowers, hedge, shrub, tree};
 use things::{
-    barrel, bench, bicycle, bicycle_stand, bollard, car, grate, kerb, manhole, picnic_table, shed, sign, street_lamp,
-    tub, wheeled_bin,
+    barrel, bench, bicycle, bicycle_stand, bollard, car, grate, kerb, manhole, picnic_table, raised_bed, shed, sign,
+    street_lamp, tub, wheeled_bin,
 };
 
 /// The brick house's façade, y in metres, and its door, along x and its height.
@@ -191,6 +191,10 @@ fn beside_the_drive(scene: &mut Scene, seed: u64) {
     tub(scene, "gate, tub", on_ground(1.0, 6.2, 0.0));
     shrub(scene, "gate, tub's shrub", [1.0, 6.2], [0.7, 1.1], Surface::Needles, seed);
     barrel(scene, "rain barrel", on_ground(0.45, 10.9, 0.0));
+    for (index, y) in [8.3, 10.9, 13.7].into_iter().enumerate() {
+        tub(scene, &format!("kerb, tub {index}"), on_ground(5.6, y, 4.0 * index as f32 - 4.0));
+        shrub(scene, &format!("kerb, tub's shrub {index}"), [5.6, y], [0.6, 0.95], Surface::Foliage, seed);
+    }
     tub(scene, "drive, tub", on_ground(3.2, 16.3, 8.0));
     shrub(scene, "drive, tub's shrub", [3.2, 16.3], [0.7, 1.3], Surface::Foliage, seed);
 }
@@ -228,9 +232,14 @@ fn on_the_lawn(scene: &mut Scene, seed: u64) {
     conifer(scene, "spruce", [20.0, 12.6], 5.2, seed);
     hedge(scene, "lawn hedge, south part", [[17.9, 7.0], [17.9, 10.6]], 0.7, 1.15, seed);
     hedge(scene, "lawn hedge, north part", [[17.9, 12.2], [17.9, 15.6]], 0.7, 1.1, seed);
-    shrub(scene, "lawn, shrub 0", [15.1, 10.2], [0.9, 0.9], Surface::Foliage, seed);
-    shrub(scene, "lawn, shrub 1", [15.0, 12.4], [1.0, 0.8], Surface::Hedge, seed);
-    shrub(scene, "lawn, shrub 2", [15.1, 14.4], [0.9, 1.0], Surface::Needles, seed);
+    raised_bed(scene, "raised bed 0", on_ground(15.5, 9.7, 90.0), [2.4, 0.85]);
+    raised_bed(scene, "raised bed 1", on_ground(15.5, 13.0, 90.0), [2.4, 0.85]);
+    for (index, y) in [9.1, 9.9, 10.5, 12.4, 13.1, 13.7].into_iter().enumerate() {
+        let kind = if index % 2 == 0 { Surface::Foliage } else { Surface::Hedge };
+        shrub(scene, &format!("raised bed, vegetables {index}"), [15.5, y], [0.55, 0.75], kind, seed);
+    }
+    shrub(scene, "lawn, shrub 0", [15.1, 11.4], [0.9, 0.9], Surface::Foliage, seed);
+    shrub(scene, "lawn, shrub 2", [15.2, 15.2], [0.9, 1.0], Surface::Needles, seed);
     shrub(scene, "lawn, shrub 3", [17.7, 11.4], [0.8, 0.8], Surface::Foliage, seed);
     picnic_table(scene, "picnic table", on_ground(11.6, 9.4, 15.0));
     shed(scene, "shed", on_ground(22.6, 12.6, 0.0), [3.0, 2.4]);
@@ -257,11 +266,19 @@ fn beside_the_path(scene: &mut Scene, seed: u64) {
         hedge(scene, &format!("bed, box hedge {index}"), [[left, 18.72], [right, 18.72]], 0.3, 0.42, seed);
     }
     for (index, x) in [12.0, 14.6, 17.2, 19.8, 22.4].into_iter().enumerate() {
-        flowers(scene, &format!("bed, flowers {index}"), [x, 19.2], [1.3, 0.9], index as u32, seed);
+        flowers(scene, &format!("bed, flowers {index}"), [x, 19.2], [1.3, 0.9], index as u32, 0.0, seed);
     }
     for (index, x) in [7.45, 9.65].into_iter().enumerate() {
         tub(scene, &format!("door, tub {index}"), on_ground(x, 19.5, 0.0));
         shrub(scene, &format!("door, tub's shrub {index}"), [x, 19.5], [0.7, 1.25], Surface::Needles, seed);
+    }
+    for (index, x) in [6.6, 14.9].into_iter().enumerate() {
+        tub(scene, &format!("path, tub {index}"), on_ground(x, 16.74, 5.0));
+        flowers(scene, &format!("path, tub's flowers {index}"), [x, 16.74], [0.5, 0.5], 4, 0.5, seed);
+    }
+    for (index, x) in [8.0, 11.6, 14.6].into_iter().enumerate() {
+        tub(scene, &format!("gravel strip, tub {index}"), on_ground(x, 5.72, 7.0 * index as f32));
+        flowers(scene, &format!("gravel strip, tub's flowers {index}"), [x, 5.72], [0.5, 0.5], index as u32, 0.5, seed);
     }
     bench(scene, "path, bench", on_ground(8.2, 16.2, 180.0));
     bicycle_stand(scene, "bicycle stand", on_ground(12.6, 16.1, 0.0));

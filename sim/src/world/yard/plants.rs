@@ -315,14 +315,22 @@ fn surface_mapping(surface: Surface) -> Mapping {
     surface.mapping_from([0.0; 2])
 }
 
-/// A group of flowers on `size` metres: leaves close to the soil, stems, blossoms in one colour.
-pub(super) fn flowers(scene: &mut Scene, name: &str, [x, y]: [f32; 2], size: [f32; 2], colour: u32, seed: u64) {
+/// A group of flowers on `size` metres, `up` metres above the ground: leaves close to the soil, blossoms in one colour.
+pub(super) fn flowers(
+    scene: &mut Scene,
+    name: &str,
+    [x, y]: [f32; 2],
+    size: [f32; 2],
+    colour: u32,
+    up: f32,
+    seed: u64,
+) {
     let mut rng = random(seed, name);
     let count = (26.0 * size[0] * size[1]) as u32;
     let bank = on_ground(x, y, 0.0);
     scene.piece(name, Kind::Decor, bank, |piece| {
         for _ in 0..count {
-            let root = vec3(size[0] * (rng.random::<f32>() - 0.5), size[1] * (rng.random::<f32>() - 0.5), -0.01);
+            let root = vec3(size[0] * (rng.random::<f32>() - 0.5), size[1] * (rng.random::<f32>() - 0.5), up - 0.01);
             let tall = 0.2 + 0.22 * rng.random::<f32>();
             for _ in 0..3 {
                 let turn = TAU * rng.random::<f32>();

@@ -243,6 +243,20 @@ pub(super) fn tub(scene: &mut Scene, name: &str, place: Place) {
     });
 }
 
+/// A bed for vegetables in a box of boards; `size`: along and across, metres.
+pub(super) fn raised_bed(scene: &mut Scene, name: &str, place: Place, [long, deep]: [f32; 2]) {
+    scene.piece(name, Kind::Solid, place, |piece| {
+        let (x, y, top) = (0.5 * long, 0.5 * deep, 0.48);
+        for (min, max) in [([-x, -y], [x, 0.05 - y]), ([-x, y - 0.05], [x, y])] {
+            piece.block(Surface::Timber, [min[0], min[1], -0.3], [max[0], max[1], top]);
+        }
+        for left in [-x, x - 0.05] {
+            piece.block(Surface::Timber, [left, 0.05 - y, -0.3], [left + 0.05, y - 0.05, top]);
+        }
+        piece.block(Surface::Earth, [0.05 - x, 0.05 - y, 0.0], [x - 0.05, y - 0.05, top - 0.06]);
+    });
+}
+
 /// A round cover in the ground.
 pub(super) fn manhole(scene: &mut Scene, name: &str, place: Place) {
     scene.piece(name, Kind::Decor, place, |piece| {

@@ -1,8 +1,10 @@
 //! Ground that is not level.
 
+use nalgebra::Point3;
+
 use super::*;
 use crate::world::ground::{Ground, Terrain};
-use crate::world::yard;
+use crate::world::{campus, yard};
 
 fn land(ground: Ground) -> World {
     World { name: "test".into(), ground, ..World::default() }
@@ -118,4 +120,43 @@ fn two_runs_over_the_yard_are_equal_bit_for_bit() {
         bits
     };
     assert!(run() == run());
+}
+
+/// Drives a world's loop to its end, on what the world has for floors; steered by the truth.
+fn drive_round(world: &World, points: &[[f64; 2]]) -> Simulation {
+    let heading = (points[1][1] - points[0][1]).atan2(points[1][0] - points[0][0]);
+    let start = world.ground.standing(points[0][0], points[0][1], heading, robot().wheelbase() / 2.0);
+    let mut simulation = Simulation::new(world, &robot(), FloorPlan::from(&world.ground), &start, 3).unwrap();
+    let mut next = 0;
+    while next + 1 < points.len() {
+        let robot_from_world = simulation.world_from_robot().inverse();
+        let towards = |index: usize| {
+            let height = simulation.world_from_robot().translation.z;
+            robot_from_world * Point3::new(points[index][0], points[index][1], height)
+        };
+        // Pure pursuit, half a metre ahead.
+        while next + 1 < points.len() && towards(next).coords.norm() < 0.5 {
+            next += 1;
+        }
+        let ahead = towards(next);
+        let turn_rate = 0.4 * 2.0 * ahead.y / ahead.coords.norm_squared();
+        for _ in 0..10 {
+            simulation.step(VelocityCommand { speed: 0.4, turn_rate });
+        }
+        let at = simulation.world_from_robot().translation.vector;
+        assert_eq!(simulation.bumps(), [], "at {at}");
+        assert!(simulation.elapsed() < 0.4 * points.len() as f64, "stuck at {at}");
+    }
+    simulation
+}
+
+#[test]
+fn it_drives_round_the_yard_and_round_the_campus_and_bumps_into_nothing() {
+    for (world, points) in [(yard::yard(1), yard::loop_waypoints()), (campus::campus(1), campus::loop_waypoints())] {
+        let simulation = drive_round(&world, &points);
+        let end = simulation.world_from_robot().translation.vector;
+        let off = (end.xy() - Vector2::from(points[0])).norm();
+        println!("{}: round in {:.0} s", world.name, simulation.elapsed());
+        assert!(off < 0.6 && (end.z - world.ground.height(end.x, end.y)).abs() < 0.01, "{off} m from the start");
+    }
 }

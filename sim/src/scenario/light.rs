@@ -1,0 +1,406 @@
+//! `[light]`: what shines at the start, and how that changes.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Fault;
+use super::check::{number, optional};
+use super::error::nearest;
+use crate::light::{self, BadDate, Clock, LightState, daylight, moonlight};
+use crate::world::{WINDOWS, World};
+
+/// Direct sun on a window is some 30 times an overcast day.
+const DAYLIGHT: std::ops::RangeInclusive<f64> = 0.0..=100.0;
+const ELEVATION: std::ops::RangeInclusive<f64> = -90.0..=90.0;
+const AZIMUTH: std::ops::RangeInclusive<f64> = -360.0..=360.0;
+const SHARE: std::ops::RangeInclusive<f64> = 0.0..=1.0;
+/// A lamp's brightness, in multiples of its own; a guess at what makes sense.
+const BRIGHTNESS: std::ops::RangeInclusive<f64> = 0.0..=10.0;
+/// An hour and a day: no run is longer.
+const SECONDS: std::ops::RangeInclusive<f64> = 0.0..=90_000.0;
+
+/// What shines at the start of a run. The day comes from `sun`, or from `place`, `date` and `time_utc`; without either it
+/// is an overcast day of `daylight_scale`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Light {
+    /// Whether the lamps are on.
+    pub lamps: bool,
+    /// Brightness of single groups of lamps, in multiples of their own: `{ street = 0.5 }`. The laboratory has `ceiling`,
+    /// the yard `street`, the campus both and `tunnel`.
+    pub lamp_brightness: BTreeMap<String, f64>,
+    /// An overcast day, in multiples of one of 7,100 lx; 0 is night.
+    pub daylight_scale: f64,
+    /// Where the sun stands.
+    pub sun: Option<Direction>,
+    /// Where on Earth, for the sun's course.
+    pub place: Option<Place>,
+    /// The day there, "2026-06-21".
+    pub date: Option<String>,
+    /// UTC at the start, "09:30" or "09:30:15".
+    pub time_utc: Option<String>,
+    /// Share of the sky that is cloud, 0 to 1; counts where there is a sun or a moon.
+    pub cloud_cover: f64,
+    /// The moon, if it is up.
+    pub moon: Option<Moon>,
+    /// What changes on the way, in the order of time.
+    pub timeline: Vec<Change>,
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self {
+            lamps: true,
+            lamp_brightness: BTreeMap::new(),
+            daylight_scale: 1.0,
+            sun: None,
+            place: None,
+            date: None,
+            time_utc: None,
+            cloud_cover: 0.0,
+            moon: None,
+            timeline: Vec::new(),
+        }
+    }
+}
+
+/// A direction in the sky.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Direction {
+    /// Above the horizon.
+    pub elevation_deg: f64,
+    /// Clockwise from north; 90 is east.
+    pub azimuth_deg: f64,
+}
+
+/// A place on Earth, at sea level.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// North is positive.
+    pub latitude_deg: f64,
+    /// East is positive.
+    pub longitude_deg: f64,
+}
+
+/// The moon.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Moon {
+    /// Above the horizon.
+    pub elevation_deg: f64,
+    /// Clockwise from north.
+    pub azimuth_deg: f64,
+    /// How much of its disc is lit, 0 to 1; 1 is a full moon.
+    #[serde(default = "full")]
+    pub lit_share: f64,
+}
+
+fn full() -> f64 {
+    1.0
+}
+
+/// From `at_s` on, what is written here becomes so: evenly within `over_s` seconds, or at once without it. What is not
+/// written stays.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// Seconds after the start.
+    pub at_s: f64,
+    /// How long the change takes, seconds.
+    #[serde(default)]
+    pub over_s: f64,
+    /// All lamps on or off.
+    pub lamps: Option<bool>,
+    /// Brightness of groups of lamps.
+    #[serde(default)]
+    pub lamp_brightness: BTreeMap<String, f64>,
+    /// The overcast day.
+    pub daylight_scale: Option<f64>,
+    /// Where the sun stands.
+    pub sun: Option<Direction>,
+    /// The clouds.
+    pub cloud_cover: Option<f64>,
+}
+
+/// All that changes, at one instant.
+struct Instant {
+    lamps: f64,
+    lamp_brightness: BTreeMap<String, f64>,
+    daylight_scale: f64,
+    sun: Option<Direction>,
+    cloud_cover: f64,
+}
+
+impl Light {
+    /// What shines `at` seconds after the start, in a world whose lamps have these [groups](lamp_groups).
+    pub fn at(&self, at: f64, groups: &[String]) -> LightState {
+        let now = self.instant(at);
+        let sun =
+            now.sun.map(|sun| [sun.elevation_deg, sun.azimuth_deg].map(f64::to_radians)).or_else(|| self.course(at));
+        let mut state = match sun {
+            Some([elevation, azimuth]) => daylight(elevation, azimuth, now.cloud_cover),
+            None => LightState::overcast_day(now.daylight_scale as f32),
+        };
+        if let Some(moon) = &self.moon {
+            let [elevation, azimuth] = [moon.elevation_deg, moon.azimuth_deg].map(f64::to_radians);
+            state = state.and(&moonlight(elevation, azimuth, moon.lit_share, now.cloud_cover));
+        }
+        let brightness = |group: &String| {
+            let of_group = now.lamp_brightness.get(group).copied().unwrap_or(1.0);
+            (group.clone(), (now.lamps * of_group) as f32)
+        };
+        LightState { lamps: groups.iter().map(brightness).collect(), ..state }
+    }
+
+    /// Checks everything that can be known without the world.
+    ///
+    /// # Errors
+    /// The first thing that makes no sense.
+    pub(super) fn check(&self) -> Result<(), Fault> {
+        number("light.daylight_scale", self.daylight_scale, DAYLIGHT)?;
+        number("light.cloud_cover", self.cloud_cover, SHARE)?;
+        check_brightness("light", &self.lamp_brightness)?;
+        if let Some(sun) = &self.sun {
+            sun.check("light.sun")?;
+        }
+        if let Some(Moon { elevation_deg, azimuth_deg, lit_share }) = self.moon {
+            Direction { elevation_deg, azimuth_deg }.check("light.moon")?;
+            number("light.moon.lit_share", lit_share, SHARE)?;
+        }
+        self.check_place()?;
+        let mut before = 0.0;
+        for (index, change) in self.timeline.iter().enumerate() {
+            let key = format!("light.timeline.{index}");
+            change.check(&key)?;
+            if change.at_s < before {
+                let problem =
+                    format!("at_s = {} comes after {before}: write changes in the order of time", change.at_s);
+                return Err(Fault::new(format!("{key}.at_s"), problem));
+            }
+            if change.sun.is_some() && self.sun.is_none() {
+                let problem =
+                    "there is no sun to move: write sun = { elevation_deg = 40, azimuth_deg = 180 } in [light]";
+                return Err(Fault::new(format!("{key}.sun"), problem));
+            }
+            before = change.at_s;
+        }
+        Ok(())
+    }
+
+    /// Whether every group of lamps that is named is one of the world's.
+    ///
+    /// # Errors
+    /// The first that is not, with those there are.
+    pub fn check_groups(&self, groups: &[String]) -> Result<(), Fault> {
+        let start = self.lamp_brightness.keys().map(|group| ("light".to_owned(), group));
+        let later = (self.timeline.iter().enumerate()).flat_map(|(index, change)| {
+            change.lamp_brightness.keys().map(move |group| (format!("light.timeline.{index}"), group))
+        });
+        for (table, group) in start.chain(later) {
+            if !groups.contains(group) {
+                let known = groups.iter().map(|known| format!("`{known}`")).collect::<Vec<_>>().join(", ");
+                let meant = nearest(group, groups.iter().map(String::as_str));
+                let advice = meant.map_or("delete the key".to_owned(), |near| format!("did you mean `{near}`?"));
+                let problem = format!("this world has no lamps called `{group}`, but {known}; {advice}");
+                return Err(Fault::new(format!("{table}.lamp_brightness.{group}"), problem));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_place(&self) -> Result<(), Fault> {
+        let parts = [self.place.is_some(), self.date.is_some(), self.time_utc.is_some()];
+        if parts == [false; 3] {
+            return Ok(());
+        }
+        if self.sun.is_some() {
+            return Err(Fault::new("light.sun", "a sun's direction beside a place and a time: delete one of them"));
+        }
+        if parts != [true; 3] {
+            let problem = "the sun's course needs all of place = { latitude_deg = 48, longitude_deg = 11 }, \
+                           date = \"2026-06-21\" and time_utc = \"11:30\"";
+            return Err(Fault::new("light", problem));
+        }
+        if let Some(Place { latitude_deg, longitude_deg }) = self.place {
+            number("light.place.latitude_deg", latitude_deg, -90.0..=90.0)?;
+            number("light.place.longitude_deg", longitude_deg, -180.0..=180.0)?;
+        }
+        let time = self.seconds_of_day().ok_or_else(|| {
+            Fault::new("light.time_utc", "write hours and minutes in UTC, from \"00:00\" to \"23:59\"")
+        })?;
+        match self.clock(time) {
+            Some(Ok(_)) => Ok(()),
+            Some(Err(error)) => Err(Fault::new("light.date", format!("{error}; write a day as \"2026-06-21\""))),
+            None => Err(Fault::new("light.date", "write a day as \"2026-06-21\"")),
+        }
+    }
+
+    /// Elevation and azimuth of the sun by its course, radians.
+    fn course(&self, at: f64) -> Option<[f64; 2]> {
+        let Place { latitude_deg, longitude_deg } = self.place?;
+        let clock = self.clock(self.seconds_of_day()? + at)?.ok()?;
+        Some(clock.sun(light::Place { latitude: latitude_deg, longitude: longitude_deg }))
+    }
+
+    fn clock(&self, seconds: f64) -> Option<Result<Clock, BadDate>> {
+        let parts: Option<Vec<u32>> = self.date.as_ref()?.split('-').map(|part| part.parse().ok()).collect();
+        Some(Clock::utc(parts?.try_into().ok()?, seconds))
+    }
+
+    fn seconds_of_day(&self) -> Option<f64> {
+        let parts: Option<Vec<u32>> = self.time_utc.as_ref()?.split(':').map(|part| part.parse().ok()).collect();
+        match parts?[..] {
+            [hours @ ..24, minutes @ ..60] => Some(f64::from(3600 * hours + 60 * minutes)),
+            [hours @ ..24, minutes @ ..60, seconds @ ..60] => Some(f64::from(3600 * hours + 60 * minutes + seconds)),
+            _ => None,
+        }
+    }
+
+    fn instant(&self, at: f64) -> Instant {
+        let mut now = Instant {
+            lamps: f64::from(u8::from(self.lamps)),
+            lamp_brightness: self.lamp_brightness.clone(),
+            daylight_scale: self.daylight_scale,
+            sun: self.sun,
+            cloud_cover: self.cloud_cover,
+        };
+        for change in self.timeline.iter().take_while(|change| change.at_s <= at) {
+            let share = if change.over_s > 0.0 { ((at - change.at_s) / change.over_s).min(1.0) } else { 1.0 };
+            let towards = |from: f64, to: Option<f64>| to.map_or(from, |to| from + share * (to - from));
+            now.lamps = towards(now.lamps, change.lamps.map(|on| f64::from(u8::from(on))));
+            now.daylight_scale = towards(now.daylight_scale, change.daylight_scale);
+            now.cloud_cover = towards(now.cloud_cover, change.cloud_cover);
+            for (group, &brightness) in &change.lamp_brightness {
+                let now = now.lamp_brightness.entry(group.clone()).or_insert(1.0);
+                *now = towards(*now, Some(brightness));
+            }
+            now.sun = now.sun.zip(change.sun).map_or(now.sun, |(from, to)| {
+                Some(Direction {
+                    elevation_deg: towards(from.elevation_deg, Some(to.elevation_deg)),
+                    azimuth_deg: towards(from.azimuth_deg, Some(to.azimuth_deg)),
+                })
+            });
+        }
+        now
+    }
+}
+
+impl Direction {
+    fn check(&self, key: &str) -> Result<(), Fault> {
+        number(&format!("{key}.elevation_deg"), self.elevation_deg, ELEVATION)?;
+        number(&format!("{key}.azimuth_deg"), self.azimuth_deg, AZIMUTH)
+    }
+}
+
+impl Change {
+    fn check(&self, key: &str) -> Result<(), Fault> {
+        number(&format!("{key}.at_s"), self.at_s, SECONDS)?;
+        number(&format!("{key}.over_s"), self.over_s, SECONDS)?;
+        check_brightness(key, &self.lamp_brightness)?;
+        optional(&format!("{key}.daylight_scale"), self.daylight_scale, DAYLIGHT)?;
+        optional(&format!("{key}.cloud_cover"), self.cloud_cover, SHARE)?;
+        self.sun.map_or(Ok(()), |sun| sun.check(&format!("{key}.sun")))
+    }
+}
+
+/// The groups of lamps that a world has; what its windows let in is no lamp's.
+pub fn lamp_groups(world: &World) -> Vec<String> {
+    world.lamp_groups().into_iter().filter(|group| *group != WINDOWS).map(str::to_owned).collect()
+}
+
+fn check_brightness(table: &str, brightness: &BTreeMap<String, f64>) -> Result<(), Fault> {
+    let mut all = brightness.iter();
+    all.try_for_each(|(group, &value)| number(&format!("{table}.lamp_brightness.{group}"), value, BRIGHTNESS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::illuminance;
+
+    fn light(text: &str) -> Light {
+        toml::from_str(text).unwrap()
+    }
+
+    fn problem(text: &str) -> Fault {
+        light(text).check().unwrap_err()
+    }
+
+    #[test]
+    fn a_change_takes_its_time_and_what_is_not_written_stays() {
+        let light = light(
+            "lamp_brightness = { street = 0.5 }\nsun = { elevation_deg = 10, azimuth_deg = 270 }\n\
+             [[timeline]]\nat_s = 10\nover_s = 20\ncloud_cover = 0.8\nsun = { elevation_deg = 0, azimuth_deg = 280 }\n\
+             [[timeline]]\nat_s = 40\nlamps = false\n",
+        );
+        assert_eq!(light.check(), Ok(()));
+        let groups = ["street".to_owned(), "tunnel".to_owned()];
+        let cover = |at| light.instant(at).cloud_cover;
+        assert_eq!([cover(0.0), cover(10.0), cover(20.0), cover(30.0), cover(99.0)], [0.0, 0.0, 0.4, 0.8, 0.8]);
+        assert_eq!(light.instant(20.0).sun, Some(Direction { elevation_deg: 5.0, azimuth_deg: 275.0 }));
+        assert_eq!(light.at(39.9, &groups).lamps_of("street"), 0.5);
+        assert_eq!(light.at(39.9, &groups).lamps_of("tunnel"), 1.0);
+        assert_eq!(light.at(40.0, &groups).lamps_of("tunnel"), 0.0);
+        let ground = |at| illuminance(&light.at(at, &groups).sky.horizontal());
+        assert!(ground(0.0) > ground(30.0) && ground(30.0) > 1.0);
+    }
+
+    #[test]
+    fn the_sun_runs_its_course_by_place_and_date() {
+        let light = light(
+            "place = { latitude_deg = 51.48, longitude_deg = 0.0 }\ndate = \"2026-06-21\"\ntime_utc = \"12:02\"\n",
+        );
+        assert_eq!(light.check(), Ok(()));
+        let [elevation, azimuth] = light.course(0.0).unwrap().map(f64::to_degrees);
+        // Noon at the solstice: 90° − latitude + the ecliptic's obliquity.
+        assert!(
+            (elevation - (90.0 - 51.48 + 23.44)).abs() < 0.1 && (azimuth - 180.0).abs() < 1.0,
+            "{elevation} {azimuth}"
+        );
+        assert!(light.course(3600.0).unwrap()[0].to_degrees() < elevation - 2.0);
+    }
+
+    #[test]
+    fn without_a_sun_it_is_an_overcast_day_of_any_brightness() {
+        let [day, night] = [1.0, 0.0].map(|scale| light(&format!("daylight_scale = {scale}")).at(0.0, &[]));
+        assert!((illuminance(&day.sky.horizontal()) - 7100.0).abs() < 100.0);
+        assert_eq!(day.windows, [1.0; 4]);
+        assert_eq!((illuminance(&night.sky.horizontal()), night.windows), (0.0, [0.0; 4]));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_said_with_its_place() {
+        for (text, key, part) in [
+            ("cloud_cover = 1.5", "light.cloud_cover", "0 to 1"),
+            ("sun = { elevation_deg = 99, azimuth_deg = 0 }", "light.sun.elevation_deg", "-90 to 90"),
+            ("date = \"2026-06-21\"", "light", "latitude_deg"),
+            (
+                "place = { latitude_deg = 9, longitude_deg = 9 }\ndate = \"2026-02-30\"\ntime_utc = \"10:00\"",
+                "light.date",
+                "2026-06-21",
+            ),
+            (
+                "place = { latitude_deg = 9, longitude_deg = 9 }\ndate = \"2026-02-20\"\ntime_utc = \"25:00\"",
+                "light.time_utc",
+                "23:59",
+            ),
+            ("[[timeline]]\nat_s = 5\n[[timeline]]\nat_s = 4\n", "light.timeline.1.at_s", "order of time"),
+            (
+                "[[timeline]]\nat_s = 5\nsun = { elevation_deg = 9, azimuth_deg = 0 }\n",
+                "light.timeline.0.sun",
+                "no sun to move",
+            ),
+            ("lamp_brightness = { street = -1 }", "light.lamp_brightness.street", "0 to 10"),
+        ] {
+            let fault = problem(text);
+            assert!(fault.key == key && fault.problem.contains(part), "{text}: {fault:?}");
+        }
+        let groups = ["street".to_owned()];
+        let fault = light("lamp_brightness = { stret = 1 }").check_groups(&groups).unwrap_err();
+        assert!(fault.problem.contains("did you mean `street`"), "{fault:?}");
+    }
+}
