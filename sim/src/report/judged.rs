@@ -75,15 +75,6 @@ impl<'a> Judged<'a> {
         self.duration_of_run() / self.log.wall
     }
 
-    /// The mean share of the depth images' pixels that have a value; `None` when no localiser counted them.
-    pub(super) fn depth_valid_share(&self) -> Option<f64> {
-        let shares = |track: &Track| -> Vec<f64> {
-            track.frames.iter().filter_map(|frame| Some(frame.counts?.depth_valid_share)).collect()
-        };
-        let shares = self.log.tracks.iter().map(shares).find(|shares| !shares.is_empty())?;
-        Some(shares.iter().sum::<f64>() / shares.len() as f64)
-    }
-
     /// Length of the true path, metres; of the judged track's own path where there is no truth.
     pub(super) fn path(&self) -> f64 {
         if let Some(facts) = &self.log.facts {

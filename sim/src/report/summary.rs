@@ -105,7 +105,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
         estimators: estimators
             .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation)))
             .collect(),
-        sensor: SensorSummary { depth_valid_share: judged.depth_valid_share(), energies: log.energies },
+        sensor: SensorSummary { depth_valid_share: log.depth_valid_share(), energies: log.energies },
         warnings: &log.warnings,
         expectations: &log.expectations,
     };

@@ -6,6 +6,7 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use sunblind_estimator::fusion::PlanarPose;
 use sunblind_estimator::guidance::{Path, Tracker, TrackingParams};
+use sunblind_estimator::mode::Energies;
 use sunblind_estimator::{Measurement, MeasurementData, Timestamp};
 use thiserror::Error;
 
@@ -16,7 +17,7 @@ use crate::evaluation::{evaluate, position_error};
 use crate::record::writer::{RecordingWriter, WriteError};
 use crate::render::RenderError;
 use crate::robot::VelocityCommand;
-use crate::scenario::expect::{Metrics, judge, metrics};
+use crate::scenario::expect::{Metrics, OF_THE_SENSOR, judge, metrics};
 use crate::scenario::{Fault, Scenario};
 use crate::simulator::Simulator;
 use crate::world::World;
@@ -133,6 +134,10 @@ fn metrics_of(log: &RunLog, facts: &RunFacts) -> Metrics {
     metrics.insert("path_m".into(), facts.path);
     metrics.insert("duration_s".into(), facts.duration);
     metrics.insert("frames".into(), frames as f64);
+    let Energies { rgb, infrared, depth } = log.energies;
+    let of_the_sensor = [log.depth_valid_share(), rgb, infrared, depth];
+    let measured = OF_THE_SENSOR.into_iter().zip(of_the_sensor);
+    metrics.extend(measured.filter_map(|(key, value)| Some((key.to_owned(), value?))));
     metrics
 }
 

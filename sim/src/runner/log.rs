@@ -62,6 +62,17 @@ pub struct RunFacts {
     pub cpu_ms_per_frame: SimulationCost,
 }
 
+impl RunLog {
+    /// The mean share of the depth images' pixels that have a value; `None` when no localiser counted them.
+    pub fn depth_valid_share(&self) -> Option<f64> {
+        let shares = |track: &Track| -> Vec<f64> {
+            track.frames.iter().filter_map(|frame| Some(frame.counts?.depth_valid_share)).collect()
+        };
+        let shares = self.tracks.iter().map(shares).find(|shares| !shares.is_empty())?;
+        Some(shares.iter().sum::<f64>() / shares.len() as f64)
+    }
+}
+
 /// Milliseconds of CPU for each camera frame, the mean over the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SimulationCost {

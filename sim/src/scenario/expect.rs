@@ -34,6 +34,9 @@ const MEASURED: [&str; 10] = [
 ];
 /// What is measured of the run, as in `summary.json`.
 const OF_THE_RUN: [&str; 3] = ["path_m", "duration_s", "frames"];
+/// What is measured of the images, as in `summary.json`: the mean share of depth pixels with a value, mean energies.
+pub const OF_THE_SENSOR: [&str; 4] =
+    ["sensor.depth_valid_share", "sensor.energies.rgb", "sensor.energies.infrared", "sensor.energies.depth"];
 
 /// Measured values by their keys: `svsf.ate_m`, `path_m`.
 pub type Metrics = BTreeMap<String, f64>;
@@ -42,7 +45,8 @@ pub type Metrics = BTreeMap<String, f64>;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    /// Its key as in summary.json: an estimate, a dot, what is measured of it; or a value of the whole run.
+    /// Its key as in summary.json: an estimate, a dot, what is measured of it; or a value of the whole run or of
+    /// its images.
     pub metric: String,
     /// Another metric that it is divided by.
     pub relative_to: Option<String>,
@@ -144,7 +148,8 @@ impl Expectation {
 
 fn check_metric(key: &str, metric: &str) -> Result<(), Fault> {
     let of_estimates = ESTIMATES.iter().flat_map(|estimate| MEASURED.map(|measured| format!("{estimate}.{measured}")));
-    let known: Vec<String> = of_estimates.chain(OF_THE_RUN.map(str::to_owned)).collect();
+    let known: Vec<String> =
+        of_estimates.chain(OF_THE_RUN.into_iter().chain(OF_THE_SENSOR).map(str::to_owned)).collect();
     if known.iter().any(|known| known == metric) {
         return Ok(());
     }

@@ -172,6 +172,7 @@ impl Obstacles {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
     use std::path::Path;
 
     use super::*;
@@ -180,16 +181,20 @@ mod tests {
 
     #[test]
     fn no_shipped_scenario_drives_into_something() {
-        let obstacles = Obstacles::of(&WorldName::Laboratory.build());
-        let is_free = |from: &Point2<f64>, to: &Point2<f64>| obstacles.leave_free(from, to);
+        let worlds = [WorldName::Laboratory, WorldName::Yard, WorldName::Campus];
+        let obstacles: BTreeMap<_, _> = worlds.map(|world| (world, Obstacles::of(&world.build()))).into();
+        let check = |scenario: &Scenario| {
+            let obstacles = &obstacles[&scenario.world.name.expect("a world of ours")];
+            scenario.check_way(|from: &Point2<f64>, to: &Point2<f64>| obstacles.leave_free(from, to))
+        };
         for file in shipped() {
             if let AnyScenario::Robot(scenario) = load(&file).unwrap() {
-                assert_eq!(scenario.check_way(is_free), Ok(()), "{}", file.display());
+                assert_eq!(check(&scenario), Ok(()), "{}", file.display());
             }
         }
         let through_the_wall = "seed = 1\nduration_s = 60.0\n[world]\nname = \"laboratory\"\n[path]\n\
                                 kind = \"waypoints\"\npoints_m = [[4.0, 1.2], [4.0, 4.0]]\n";
-        let fault = robot(through_the_wall).check_way(is_free).unwrap_err();
+        let fault = check(&robot(through_the_wall)).unwrap_err();
         assert!(fault.problem.starts_with("the path is blocked near (4.00, 1."), "{}", fault.problem);
     }
 
