@@ -11,7 +11,8 @@ pub struct GyroParams {
     /// Angle random walk, rad/√s. Data sheet class; real ones on a shaking robot may be worse.
     #[serde(rename = "noise_rad_per_sqrt_s")]
     pub noise: f64,
-    /// σ of the bias before the robot has stood still for the first time, rad/s. A guess.
+    /// σ of the bias before the robot has stood still for the first time, rad/s. A guess, 0.1 °/s: the P3-AT's firmware
+    /// averages its gyro at switch-on. A raw MEMS gyro is off by ten times as much.
     #[serde(rename = "bias_rad_per_s")]
     pub bias: f64,
     /// How fast the bias wanders, rad/s/√s. A guess: 0.5 °/s in ten minutes.
@@ -31,17 +32,19 @@ pub struct GyroParams {
 
 impl Default for GyroParams {
     fn default() -> Self {
-        Self { noise: 0.0017, bias: 0.02, bias_walk: 4e-4, rest: 0.5, max_bias: 0.1, max_gap: 0.1 }
+        Self { noise: 0.0017, bias: 0.0017, bias_walk: 4e-4, rest: 0.5, max_bias: 0.1, max_gap: 0.1 }
     }
 }
 
-/// A turn and its variance.
+/// A turn and how uncertain it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turn {
     /// Radians.
     pub angle: f64,
-    /// rad².
+    /// Of this turn by itself, rad²: what it weighs against another reading of it.
     pub variance: f64,
+    /// By how much more it makes the heading's variance grow, rad²: its error has the sign of the turns' before.
+    pub correlated: f64,
 }
 
 /// Integrates the rate between wheel readings.
@@ -126,8 +129,11 @@ impl HeadingGyro {
         // not with the root of time, and each interval adds the difference of two squares.
         let before = self.unlearnt_for;
         self.unlearnt_for += dt;
-        let from_bias = self.bias_variance * (self.unlearnt_for.powi(2) - before.powi(2));
-        Some(Turn { angle: (mean_rate - self.bias) * dt, variance: self.params.noise.powi(2) * dt + from_bias })
+        Some(Turn {
+            angle: (mean_rate - self.bias) * dt,
+            variance: self.params.noise.powi(2) * dt + self.bias_variance * dt * dt,
+            correlated: self.bias_variance * 2.0 * before * dt,
+        })
     }
 
     /// Scalar Kalman filter: what a gyro at rest reads is its bias.
@@ -170,12 +176,13 @@ mod tests {
 
     #[test]
     fn the_bias_is_learnt_at_rest_and_taken_off_after() {
-        let mut gyro = HeadingGyro::new(GyroParams::default());
+        let raw = GyroParams { bias: 0.02, ..GyroParams::default() };
+        let mut gyro = HeadingGyro::new(raw);
         run(&mut gyro, 0.0, 5.0, |_| 0.03, false);
         let turned = run(&mut gyro, 5.0, 10.0, |_| 0.2 + 0.03, true).unwrap();
         assert!((turned - 2.0).abs() < 0.01, "{turned}");
         // A robot that is carried round turns, but its gyro has no such bias.
-        let mut carried = HeadingGyro::new(GyroParams::default());
+        let mut carried = HeadingGyro::new(raw);
         run(&mut carried, 0.0, 5.0, |_| 1.0, false);
         assert_eq!(carried.bias, 0.0);
     }
