@@ -1,18 +1,21 @@
 //! `sunblind render`: what a scenario's Kinect sees, as pictures.
 
-use std::io;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use image::{GrayImage, ImageBuffer, Luma, RgbImage};
+use image::codecs::jpeg::JpegEncoder;
+use image::{GrayImage, ImageBuffer, ImageResult, Luma, RgbImage};
 use nalgebra::{Isometry3, Vector3};
 use sunblind_estimator::guidance::{self, PathPoint};
 use sunblind_estimator::image::Image;
 
-use super::contact_sheet::{self, Row};
+use super::contact_sheet::{self, Seen};
 use super::scenario_args::ScenarioArgs;
 use super::{Failure, answer, stage};
 use crate::kinect::{FRAME_INTERVAL, Kinect};
+use crate::light::illuminance;
 use crate::new_folder::{FolderError, Kind, NewFolder};
 use crate::render::{Adapter, RenderError, Sweep};
 use crate::robot::RobotModel;
@@ -37,9 +40,10 @@ drives it would. The folder holds for each instant, in a folder of its own (20s/
                    shade shows as well as dots
   depth.png        what the device makes of it: 16-bit, millimetres, 0 = none, in the infrared camera's pixels
   true_depth.png   how far away things are: 16-bit, millimetres, 0 = nothing there
-and contact_sheet.png with all of them: depth in colours from bright (near) to dark, holes black. It appears whole at the
-end or not at all; earlier pictures there are replaced. The light of a world is computed once, in about half a minute,
-and kept: `sunblind doctor` says where.";
+and contact_sheet.png with all of them: depth in colours from bright (near) to dark, holes black, and below it the share
+of the pixels that have one. Several scenarios stand side by side, and each instant has a sheet of its own (20s.jpg). The
+folder appears whole at the end or not at all; earlier pictures there are replaced. The light of a world is computed
+once, in about half a minute, and kept: `sunblind doctor` says where.";
 
 /// Show what the Kinect of some scenarios sees at some instants.
 #[derive(Args)]
@@ -72,10 +76,13 @@ fn seconds(text: &str) -> Result<f64, String> {
 static PICTURES: Kind = Kind { whose: "pictures", mark: "a folder with a contact_sheet.png", is: is_pictures };
 
 const SHEET: &str = "contact_sheet.png";
+/// JPEG quality of an instant's sheet, 1–100: dots and noise still look like dots and noise.
+const SHEET_QUALITY: u8 = 80;
 
-/// Nothing beside the sheet but folders with pictures.
+/// Nothing beside sheets but folders with pictures.
 fn is_pictures(folder: &Path) -> bool {
-    folder.join(SHEET).is_file() && holds_only(folder, |path| path.ends_with(SHEET) || is_instants(path))
+    let is_sheet = |path: &Path| path.ends_with(SHEET) || path.extension().is_some_and(|kind| kind == "jpg");
+    folder.join(SHEET).is_file() && holds_only(folder, |path| is_sheet(path) || is_instants(path))
 }
 
 /// One instant's pictures, or a scenario's: a folder with nothing but those.
@@ -109,26 +116,40 @@ impl Render {
         // Both before the light is computed, which takes a while.
         let folder = NewFolder::begin(&self.out, &PICTURES)?;
         Adapter::find()?;
-        let mut rows = Vec::new();
+        // By instant, and in each by scenario.
+        let mut seen: Vec<Vec<Seen>> = self.instants.iter().map(|_| Vec::new()).collect();
         for shot in &shots {
-            let mut view = View::new(&shot.scenario, &stage::lit_world(&shot.source, &shot.scenario)?, &shot.robot)?;
-            for &at in &self.instants {
-                let seen = view.at(at, &shot.path.at(at * shot.scenario.path.speed))?;
-                let mut row = seen.into_row();
-                let mut place = folder.path().to_owned();
-                if shots.len() > 1 {
-                    row.caption = format!("{}, {}", shot.name, row.caption);
-                    place.push(&shot.name);
-                }
-                write(&place.join(format!("{at}s")), &row).map_err(|source| self.unwritable(source))?;
-                rows.push(row);
+            let mut view = View::new(shot, &stage::lit_world(&shot.source, &shot.scenario)?)?;
+            let mut place = folder.path().to_owned();
+            if shots.len() > 1 {
+                place.push(&shot.name);
+            }
+            for (&at, of_instant) in self.instants.iter().zip(&mut seen) {
+                let sight = view.at(at, &shot.path.at(at * shot.scenario.path.speed))?;
+                write(&place.join(format!("{at}s")), &sight).map_err(|source| self.unwritable(source))?;
+                of_instant.push(sight);
             }
         }
-        let sheet = contact_sheet::draw(&rows).save(folder.path().join(SHEET));
-        sheet.map_err(|error| self.unwritable(io::Error::other(error)))?;
+        self.write_sheets(folder.path(), seen).map_err(|error| self.unwritable(io::Error::other(error)))?;
         folder.publish()?;
         answer(&format!("{}", self.out.join(SHEET).display()));
         Ok(())
+    }
+
+    /// The contact sheet, and of several scenarios one for each instant.
+    fn write_sheets(&self, folder: &Path, seen: Vec<Vec<Seen>>) -> ImageResult<()> {
+        let sheet = if self.scenarios.len() == 1 {
+            contact_sheet::below_each_other(&seen.into_iter().flatten().collect::<Vec<_>>())
+        } else {
+            let sheets: Vec<RgbImage> = seen.iter().map(|scenarios| contact_sheet::side_by_side(scenarios)).collect();
+            for (at, sheet) in self.instants.iter().zip(&sheets) {
+                let mut file = BufWriter::new(File::create(folder.join(format!("{at}s.jpg")))?);
+                sheet.write_with_encoder(JpegEncoder::new_with_quality(&mut file, SHEET_QUALITY))?;
+                file.flush()?;
+            }
+            contact_sheet::stacked(&sheets)
+        };
+        sheet.save(folder.join(SHEET))
     }
 
     fn read(&self, file: &Path) -> Result<Shot, Failure> {
@@ -155,7 +176,7 @@ impl Render {
 
 /// A scenario's Kinect in its world.
 struct View<'a> {
-    scenario: &'a Scenario,
+    shot: &'a Shot,
     kinect: Kinect,
     robot_from_infrared: Isometry3<f64>,
     ground: Ground,
@@ -164,32 +185,25 @@ struct View<'a> {
     reach: f64,
 }
 
-/// What it sees at one instant.
-struct Seen {
-    caption: String,
-    colour: sunblind_estimator::image::RgbImage,
-    infrared: Image<u16>,
-    /// Metres, 0 for none.
-    depth: Image<f32>,
-    true_depth: Image<f32>,
-}
-
 impl<'a> View<'a> {
-    fn new(scenario: &'a Scenario, world: &World, robot: &RobotModel) -> Result<Self, RenderError> {
+    fn new(shot: &'a Shot, world: &World) -> Result<Self, RenderError> {
+        let Shot { scenario, robot, .. } = shot;
         let calibration = scenario.kinect.unit();
         let robot_from_infrared = robot.robot_from_camera * calibration.colour_from_infrared;
         let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
         let (ground, reach) = (world.ground.clone(), robot.wheelbase() / 2.0);
         let lamp_groups = lamp_groups(world);
-        Ok(Self { scenario, kinect, robot_from_infrared, ground, lamp_groups, reach })
+        Ok(Self { shot, kinect, robot_from_infrared, ground, lamp_groups, reach })
     }
 
     /// `at`: seconds after the start.
     fn at(&mut self, at: f64, place: &PathPoint) -> Result<Seen, RenderError> {
         // An image of another place, long ago, says nothing of the exposure here.
         self.kinect.restart();
-        self.kinect.illuminate(&self.scenario.light.at(at, &self.lamp_groups));
-        let frame = self.kinect.capture(&self.sweep(place), (at * self.scenario.kinect.rate).round() as u64)?;
+        let Shot { name, scenario, .. } = self.shot;
+        let light = scenario.light.at(at, &self.lamp_groups);
+        self.kinect.illuminate(&light);
+        let frame = self.kinect.capture(&self.sweep(place), (at * scenario.kinect.rate).round() as u64)?;
         let true_depth = self.kinect.true_depth()?;
         let camera = self.kinect.calibration().rig(Isometry3::identity()).depth;
         let measured = |&raw: &u16| camera.depth_of(raw).unwrap_or(0.0) as f32;
@@ -197,12 +211,15 @@ impl<'a> View<'a> {
         let measured = frame.depth_raw.pixels().iter().map(measured).collect();
         let measured = Image::from_pixels(width, height, measured).expect("one value a pixel");
         let [x, y] = place.position.into();
+        let (width, height) = (frame.rgb.width() as u32, frame.rgb.height() as u32);
+        let colour = RgbImage::from_raw(width, height, frame.rgb.pixels().as_flattened().to_vec());
         Ok(Seen {
-            caption: format!("{at} s, at ({x:.1}, {y:.1}) m, {:.0} deg", place.heading.to_degrees()),
-            depth: if self.scenario.kinect.truth_depth { true_depth.clone() } else { measured },
+            light: format!("{name}: {} under the sky", lux(illuminance(&light.on_the_ground()))),
+            place: format!("{at} s, at ({x:.1}, {y:.1}) m, {:.0} deg", place.heading.to_degrees()),
+            colour: colour.expect("one value a pixel and channel"),
+            infrared: shown(&frame.infrared),
+            depth: if scenario.kinect.truth_depth { true_depth.clone() } else { measured },
             true_depth,
-            colour: frame.rgb,
-            infrared: frame.infrared,
         })
     }
 
@@ -210,7 +227,7 @@ impl<'a> View<'a> {
     /// the path.
     fn sweep(&self, place: &PathPoint) -> Sweep {
         let world_from_robot = self.ground.standing(place.position.x, place.position.y, place.heading, self.reach);
-        let speed = self.scenario.path.speed;
+        let speed = self.shot.scenario.path.speed;
         let moved = |seconds: f64| {
             let turned = speed * place.curvature * seconds;
             // Along the chord: an arc's, of so small an angle.
@@ -223,33 +240,36 @@ impl<'a> View<'a> {
     }
 }
 
-impl Seen {
-    fn into_row(self) -> Row {
-        let (width, height) = (self.colour.width() as u32, self.colour.height() as u32);
-        let colour = RgbImage::from_raw(width, height, self.colour.pixels().as_flattened().to_vec());
-        let shade = |x: u32, y: u32| {
-            let share = f32::from(self.infrared.at(x as usize, y as usize)) / 1023.0;
-            Luma([(255.0 * share.sqrt()).round() as u8])
-        };
-        let (width, height) = (self.infrared.width() as u32, self.infrared.height() as u32);
-        Row {
-            caption: self.caption,
-            colour: colour.expect("one value a pixel and channel"),
-            infrared: GrayImage::from_fn(width, height, shade),
-            depth: self.depth,
-            true_depth: self.true_depth,
-        }
+/// As a picture: the square root.
+fn shown(infrared: &Image<u16>) -> GrayImage {
+    GrayImage::from_fn(infrared.width() as u32, infrared.height() as u32, |x, y| {
+        let share = f32::from(infrared.at(x as usize, y as usize)) / 1023.0;
+        Luma([(255.0 * share.sqrt()).round() as u8])
+    })
+}
+
+/// To two digits: nobody reads a light meter to more.
+fn lux(value: f32) -> String {
+    if value < 1e-4 {
+        return "0 lx".to_owned();
+    }
+    let unit = 10_f64.powf((f64::from(value).log10() - 1.0).floor());
+    let rounded = (f64::from(value) / unit).round() * unit;
+    if rounded >= 10_000.0 {
+        format!("{:.0} klx", rounded / 1000.0)
+    } else {
+        format!("{rounded:.0$} lx", (-unit.log10().round()).max(0.0) as usize)
     }
 }
 
 /// Writes one instant's pictures into a new folder.
-fn write(folder: &Path, row: &Row) -> io::Result<()> {
+fn write(folder: &Path, seen: &Seen) -> io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let saved = [
-        row.colour.save(folder.join("rgb.png")),
-        row.infrared.save(folder.join("ir.png")),
-        millimetres(&row.depth).save(folder.join("depth.png")),
-        millimetres(&row.true_depth).save(folder.join("true_depth.png")),
+        seen.colour.save(folder.join("rgb.png")),
+        seen.infrared.save(folder.join("ir.png")),
+        millimetres(&seen.depth).save(folder.join("depth.png")),
+        millimetres(&seen.true_depth).save(folder.join("true_depth.png")),
     ];
     saved.into_iter().collect::<Result<(), _>>().map_err(io::Error::other)
 }
@@ -273,6 +293,20 @@ mod tests {
     }
 
     #[test]
+    fn light_is_told_in_two_digits() {
+        for (value, told) in [
+            (104_321.0, "100 klx"),
+            (12_600.0, "13 klx"),
+            (843.0, "840 lx"),
+            (3.14, "3.1 lx"),
+            (0.0512, "0.051 lx"),
+            (0.0, "0 lx"),
+        ] {
+            assert_eq!(lux(value), told);
+        }
+    }
+
+    #[test]
     fn an_instant_is_a_number_of_seconds_from_the_start() {
         assert_eq!(seconds("12.5"), Ok(12.5));
         for wrong in ["-1", "nan", "inf", "soon"] {
@@ -289,6 +323,7 @@ mod tests {
         let instant = folder.path().join("night/20s");
         std::fs::create_dir_all(&instant).unwrap();
         std::fs::write(instant.join("true_depth.png"), "").unwrap();
+        std::fs::write(folder.path().join("20s.jpg"), "").unwrap();
         assert!(is_pictures(folder.path()));
         std::fs::write(folder.path().join("night/thesis.tex"), "").unwrap();
         assert!(!is_pictures(folder.path()));

@@ -93,8 +93,8 @@ impl LightState {
         each(|band| GROUND_ALBEDO[band] * lit[band] / std::f32::consts::PI)
     }
 
-    /// On open, level ground.
-    fn on_the_ground(&self) -> Bands {
+    /// On open, level ground, from sky and beam.
+    pub fn on_the_ground(&self) -> Bands {
         let (sky, height) = (self.sky.horizontal(), self.beam.towards.z.max(0.0));
         each(|band| sky[band] + height * self.beam.normal[band])
     }

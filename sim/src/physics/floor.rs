@@ -75,16 +75,16 @@ impl Floor {
         variation: GripVariation { anisotropy: 0.14, slip: 0.006, correlation_length: 0.8 },
     };
 
-    /// A mown lawn, dry. Friction: hand-books, 0.5–0.6. A driven wheel shears the turf and over-spins by 6 or 7 %; users
-    /// report dead reckoning to be two or three times as wrong as on a hard floor.
+    /// A mown lawn, dry. Friction: hand-books, 0.5–0.6. A driven wheel shears the turf and over-spins by 4 %: users
+    /// report distances wrong by 3–5 % on grass and gravel, two or three times as much as on a hard floor.
     pub const GRASS: Self = Self {
-        grip: Grip { anisotropy: -0.4, slip: 0.04, friction: 0.5 },
+        grip: Grip { anisotropy: -0.4, slip: 0.024, friction: 0.5 },
         variation: GripVariation { anisotropy: 0.05, slip: 0.012, correlation_length: 0.7 },
     };
 
-    /// Loose gravel. Friction: hand-books, 0.3–0.4 on loose ground. It gives way even more than turf.
+    /// Loose gravel. Friction: hand-books, 0.3–0.4 on loose ground. It gives way even more than turf, by 5 %.
     pub const GRAVEL: Self = Self {
-        grip: Grip { anisotropy: -0.45, slip: 0.045, friction: 0.4 },
+        grip: Grip { anisotropy: -0.45, slip: 0.0275, friction: 0.4 },
         variation: GripVariation { anisotropy: 0.05, slip: 0.015, correlation_length: 0.5 },
     };
 
