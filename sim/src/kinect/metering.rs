@@ -41,7 +41,8 @@ impl Metered {
     }
 }
 
-/// Automatic white balance: the mean of what is seen is taken for grey ("grey world").
+/// Automatic white balance: the mean of what is seen is taken for grey ("grey world"), as far as that makes the light one
+/// that there is: a lawn is not lit by green lamps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WhiteBalance {
     /// Of R, G, B; the least of them is 1, so that what saturates the chip stays white.
@@ -63,6 +64,7 @@ impl WhiteBalance {
             return;
         }
         let asked: [f64; 3] = std::array::from_fn(|channel| self.gains[channel] / metered.balance[channel]);
+        let asked = near_locus(asked);
         let least = asked.into_iter().fold(f64::INFINITY, f64::min);
         let asked = asked.map(|gain| (gain / least).min(LARGEST_RATIO));
         self.gains = std::array::from_fn(|channel| {
@@ -80,6 +82,22 @@ impl WhiteBalance {
     }
 }
 
+/// Light from a glowing body or the sky has ln(G/√(RB)) = 0.115 · ln(R/B) in linear sRGB, from 2856 K (0.23, 2.07) through
+/// D50 (0.058, 0.49) to 10,000 K: from the CIE's tables, to 0.02.
+const LOCUS_SLOPE: f64 = 0.115;
+/// How far off that line a balance still goes. Fluorescent tubes and LEDs are that green or pink; a guess.
+const OFF_LOCUS: f64 = 0.08;
+
+/// Gains for the light nearest to that which `gains` would make white, with as much green as such light has.
+fn near_locus([red, green, blue]: [f64; 3]) -> [f64; 3] {
+    // Light is one over its gains.
+    let warmth = (blue / red).ln();
+    let greenness = ((red * blue).sqrt() / green).ln();
+    let line = LOCUS_SLOPE * warmth;
+    let held = greenness.clamp(line - OFF_LOCUS, line + OFF_LOCUS);
+    [red, green * (greenness - held).exp(), blue]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,7 +110,7 @@ mod tests {
 
     #[test]
     fn a_grey_card_becomes_grey_in_lamplight_and_takes_its_time() {
-        let lamplight = [1.6, 1.0, 0.8];
+        let lamplight = [1.3, 1.0, 0.62];
         let mut balance = WhiteBalance::neutral();
         balance.follow(&card(lamplight, balance.gains), 0.1);
         assert!(balance.gains[2] / balance.gains[0] < 1.1, "{:?}", balance.gains);
@@ -102,6 +120,16 @@ mod tests {
         let seen: [f64; 3] = std::array::from_fn(|channel| lamplight[channel] * balance.gains[channel]);
         assert!(seen.iter().all(|light| (light / seen[1] - 1.0).abs() < 0.05), "{seen:?}");
         assert_eq!(balance.gains.into_iter().fold(f64::INFINITY, f64::min), 1.0);
+    }
+
+    #[test]
+    fn a_lawn_stays_green_and_what_is_grey_beside_it_grey() {
+        // By day a lawn of albedo 0.063, 0.11, 0.041 fills the image; a grey kerb must not turn pink.
+        let mut balance = WhiteBalance::neutral();
+        balance.follow(&card([0.63, 1.1, 0.41], balance.gains), f64::INFINITY);
+        let [red, green, blue] = balance.gains;
+        assert!(green / (red * blue).sqrt() > 0.85, "{:?}", balance.gains);
+        assert!(0.63 * red < 1.1 * green && 0.41 * blue < 1.1 * green);
     }
 
     #[test]
