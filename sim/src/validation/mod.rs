@@ -8,8 +8,8 @@
 //! Sources: ROS `kinect_calibration/technical` (Konolige & Mihelich); Khoshelham & Elberink, *Accuracy and Resolution
 //! of Kinect Depth Data* (2012); Nguyen, Izadi & Lovell, *Modeling Kinect Sensor Noise* (2012); Reichinger, *Kinect
 //! Pattern Uncovered* (2011); Chow, Ang, Lichti & Teskey, *Performance Analysis of a Low-Cost Triangulation-Based 3D
-//! Camera* (2012); depth frames of the TUM RGB-D benchmark; libfreenect (row times); ARIA's parameters of the P3-AT;
-//! spectra of surfaces (SLUM, ECOSTRESS) and of the sun (SPECTRL2).
+//! Camera* (2012); depth frames of the TUM RGB-D benchmark and of 7-Scenes; libfreenect (row times); ARIA's parameters
+//! of the P3-AT; spectra of surfaces (SLUM, ECOSTRESS) and of the sun (SPECTRL2).
 
 pub mod bench;
 mod colour;
