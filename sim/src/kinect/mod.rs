@@ -264,7 +264,7 @@ fn projector_light<'a>(calibration: &Calibration, projector: &'a Projector) -> P
     ProjectorLight {
         baseline: calibration.baseline as f32,
         toe_in: projector.toe_in as f32,
-        pitch: projector::PITCH as f32,
+        pitch: projector.pitch as f32,
         pincushion: projector::PINCUSHION as f32,
         peak_irradiance: projector::PEAK_IRRADIANCE_AT_1_M as f32,
         tile_grid: [pattern::TILE_WIDTH, pattern::TILE_HEIGHT],
