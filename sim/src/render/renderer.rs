@@ -239,8 +239,7 @@ impl Renderer {
     }
 
     /// Triangles drawn for each view: projector, colour, infrared.
-    #[cfg(test)]
-    pub(crate) fn triangles_drawn(&self, frame: &Frame) -> [usize; 3] {
+    pub fn triangles_drawn(&self, frame: &Frame) -> [usize; 3] {
         let plan = self.prepare(frame);
         [plan.projector_clip, plan.colour_clip, plan.infrared_clip].map(|clip| self.scene.triangles_drawn(&clip))
     }
