@@ -100,6 +100,23 @@ fn the_digest_is_the_same_in_every_run_with_any_number_of_threads() {
 }
 
 #[test]
+fn a_fast_run_says_so_has_a_digest_of_its_own_and_is_localised_all_the_same() {
+    let place = tempfile::tempdir().unwrap();
+    let short = ["--short", "--set", "short.duration_s=1.5", "--set", "short.expect=[]"];
+    let digests = ["fast", "full", "fast"].map(|quality| {
+        let out = place.path().join(quality);
+        let output = run(&["lab_loop.toml"], &out, &[&short[..], &["--quality", quality]].concat(), None);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr_of(&output));
+        let summary = fs::read_to_string(out.join("summary.json")).expect("a summary");
+        assert!(summary.contains(&format!("\"quality\": \"{quality}\"")) && summary.contains("\"lost_frames\": 0"));
+        digest_of(&out)
+    });
+    assert!(digests[0] == digests[2] && digests[0] != digests[1], "{digests:?}");
+    let output = run(&["lab_loop.toml"], &place.path().join("quick"), &["--quality", "quick"], None);
+    assert!(output.status.code() == Some(2) && stderr_of(&output).contains("fast, full"), "{}", stderr_of(&output));
+}
+
+#[test]
 fn every_scenario_holds_in_its_short_form() {
     let place = tempfile::tempdir().unwrap();
     let names = [
