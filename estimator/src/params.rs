@@ -7,6 +7,7 @@ use crate::estimator::PoseSource;
 use crate::features::matching::MatchParams;
 use crate::features::surf::SurfParams;
 use crate::fusion::{FusionParams, GyroParams, WheelOdometryParams};
+use crate::mode::{Breakpoints, ModeChoice, SwitchParams};
 use crate::motion::{PaperMotionParams, RansacParams, RefineParams};
 use crate::odometry::KeyframeParams;
 use crate::structure::{DepthNoise, MAX_WINDOW};
@@ -19,6 +20,11 @@ pub struct EstimatorParams {
     pub variant: Variant,
     /// Which of the four poses is the estimate on a robot with wheels; without wheels it is `mvo`.
     pub pose_from: PoseSource,
+    /// Which sensors the pose rests on: `auto` goes by what the images hold; `indoor` (colour + depth), `night`
+    /// (infrared + depth) or `wheels` is so whatever they hold.
+    pub mode: ModeChoice,
+    /// How the images' energies become a mode, where that is `auto`.
+    pub switch: SwitchParams,
     /// Detector.
     pub surf: SurfParams,
     /// Matching of descriptors.
@@ -115,7 +121,21 @@ impl EstimatorParams {
             sigma("fusion.svsf.layer_sigma", svsf.layer_sigma),
             positive("fusion.gate.limit", gate.limit),
         ];
-        match checks.into_iter().chain(fusion).find(|(.., holds, _)| !holds) {
+        let SwitchParams { margin, dwell, stale, look_every, look, rgb, infrared, depth, .. } = self.switch;
+        let rising = |key, Breakpoints { low, high }: Breakpoints| {
+            (key, high, (0.0..1.0).contains(&low) && low < high && high <= 1.0, "low < high, both between 0 and 1")
+        };
+        let switch = [
+            share("switch.margin", margin),
+            sigma("switch.dwell_s", dwell),
+            positive("switch.stale_s", stale),
+            positive("switch.look_every_s", look_every),
+            ("switch.look_s", look, look.is_finite() && look > stale, "a number larger than switch.stale_s"),
+            rising("switch.rgb", rgb),
+            rising("switch.infrared", infrared),
+            rising("switch.depth", depth),
+        ];
+        match checks.into_iter().chain(fusion).chain(switch).find(|(.., holds, _)| !holds) {
             Some((key, value, _, wanted)) => Err(ParamError::OutOfRange { key, value, wanted }),
             None => Ok(()),
         }
@@ -168,5 +188,11 @@ mod tests {
         params = EstimatorParams::default();
         params.ransac.min_inliers = 2;
         assert!(params.validate().unwrap_err().to_string().contains("at least 3"));
+        params = EstimatorParams::default();
+        params.switch.rgb = Breakpoints { low: 0.2, high: 0.1 };
+        assert!(params.validate().unwrap_err().to_string().starts_with("switch.rgb = 0.1"));
+        params = EstimatorParams::default();
+        params.switch.look = params.switch.stale;
+        assert!(params.validate().unwrap_err().to_string().contains("larger than switch.stale_s"));
     }
 }
