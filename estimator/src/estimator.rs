@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Isometry3, Matrix6};
 use serde::{Deserialize, Serialize};
 
-use crate::camera::Rig;
+use crate::camera::{DepthCamera, Rig};
 use crate::fusion::{Fusion, UncertainPose, VisualPose};
-use crate::geometry::adjoint;
-use crate::image::{DepthImage, RgbImage};
 use crate::measurement::{
     Disposition, Estimate, Health, Localizer, Measurement, MeasurementData, Mode, Rejection, Streams,
 };
-use crate::odometry::{FrameBuilder, FrameReport, FrameToFrame, Keyframes, Tracking};
-use crate::params::{EstimatorParams, ParamError, Variant};
+use crate::mode::{ModeReport, ModeSwitch, Stream, of_colour, of_depth, of_infrared};
+use crate::odometry::FrameReport;
+use crate::params::{EstimatorParams, ParamError};
 use crate::time::Timestamp;
+use crate::vision::Vision;
 
 /// A part of the work on one frame, named to whoever holds a clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,28 +60,14 @@ impl PoseSource {
     }
 }
 
-/// Colour and depth further apart than this are not of one frame: half a period at 30 Hz, rounded up. Seconds.
-const MAX_PAIR_GAP: f64 = 0.02;
-
-enum Odometry {
-    Keyframes(Box<Keyframes>),
-    FrameToFrame(Box<FrameToFrame>),
-}
-
 /// Multispectral visual odometry, fused with the wheels where the rig has some (paper A).
 pub struct Estimator {
-    rig: Rig,
-    frames: FrameBuilder,
-    odometry: Odometry,
-    rgb: Option<(Timestamp, Arc<RgbImage>)>,
-    depth: Option<(Timestamp, Arc<DepthImage>)>,
-    /// Visual odometry's own.
-    visual: Estimate,
+    depth_camera: DepthCamera,
+    modes: ModeSwitch,
+    vision: Vision,
     /// With wheels only.
     fusion: Option<Fusion>,
     pose_from: PoseSource,
-    last_frame: Option<FrameReport>,
-    observer: StageObserver,
 }
 
 impl Estimator {
@@ -93,100 +78,38 @@ impl Estimator {
     pub fn new(params: EstimatorParams, rig: Rig) -> Result<Self, ParamError> {
         rig.validate()?;
         params.validate()?;
+        let modes = ModeSwitch::new(params.mode, params.switch);
         Ok(Self {
-            frames: FrameBuilder::new(&params, &rig),
-            odometry: match params.variant {
-                Variant::Keyframes => Odometry::Keyframes(Box::new(Keyframes::new(&params))),
-                Variant::Paper => Odometry::FrameToFrame(Box::new(FrameToFrame::new(&params))),
-            },
+            depth_camera: rig.depth,
+            vision: Vision::new(&params, &rig, modes.mode()),
             fusion: rig.drive.map(|drive| Fusion::new(params.fusion, drive)),
             pose_from: params.pose_from,
-            rig,
-            rgb: None,
-            depth: None,
-            visual: Estimate {
-                time: None,
-                odom_from_robot: Isometry3::identity(),
-                covariance: Matrix6::zeros(),
-                mode: Mode::Indoor,
-                health: Health::Initialising,
-            },
-            last_frame: None,
-            observer: Box::new(|_| {}),
+            modes,
         })
     }
 
     /// Has `observer` called at the beginning of each stage of each frame, for timing by the caller's clock.
     pub fn observe_stages(&mut self, observer: StageObserver) {
-        self.observer = observer;
+        self.vision.observe_stages(observer);
     }
 
     /// What was made of the newest frame; `None` before the first.
     pub fn last_frame(&self) -> Option<&FrameReport> {
-        self.last_frame.as_ref()
+        self.vision.report()
     }
 
-    /// Takes one image of a stream whose last one was captured at `last`.
-    fn check(
-        &self,
-        captured_at: Timestamp,
-        last: Option<Timestamp>,
-        size: (usize, usize),
-        expected: (usize, usize),
-    ) -> Option<Rejection> {
-        if size != expected {
-            return Some(Rejection::WrongSize { expected, found: size });
-        }
-        last.is_some_and(|last| captured_at <= last).then_some(Rejection::OutOfOrder)
+    /// How the mode came about.
+    pub fn mode_report(&self) -> ModeReport {
+        self.modes.report()
     }
 
-    /// Localises once colour and depth of one instant are both there.
-    fn localise(&mut self) -> Disposition {
-        let (Some((rgb_time, rgb)), Some((depth_time, depth))) = (&self.rgb, &self.depth) else {
-            return Disposition::Used;
-        };
-        if rgb_time.since(*depth_time).abs() > MAX_PAIR_GAP || self.visual.time >= Some(*rgb_time) {
-            return Disposition::Used;
-        }
-        let time = *rgb_time;
-        let frame = self.frames.build(rgb, depth, &mut self.observer);
-        let features = frame.features.len();
-        let valid = depth.pixels().iter().filter(|&&value| self.rig.depth.depth_of(value).is_some()).count();
-        let depth_valid_share = valid as f64 / depth.pixels().len() as f64;
-        let Tracking { pose, failure, tracks, keyframe } = match &mut self.odometry {
-            Odometry::Keyframes(odometry) => odometry.track(frame, &mut self.observer),
-            Odometry::FrameToFrame(odometry) => odometry.track(frame, &mut self.observer),
-        };
-        (self.observer)(Stage::Done);
-        self.last_frame = Some(FrameReport {
-            time,
-            features,
-            matches: tracks.len(),
-            inliers: tracks.iter().filter(|track| track.inlier).count(),
-            keyframe,
-            depth_valid_share,
-            tracks,
-        });
-        let robot_from_camera = self.rig.robot_from_colour;
-        let carry = adjoint(&robot_from_camera);
-        self.visual = Estimate {
-            time: Some(time),
-            odom_from_robot: robot_from_camera * pose.start_from_camera * robot_from_camera.inverse(),
-            covariance: carry * pose.covariance * carry.transpose(),
-            mode: Mode::Indoor,
-            health: failure.map_or(Health::Good, Health::Lost),
-        };
+    /// Takes an image whose energy is `energy`, and localises once the images that the mode rests on are all there.
+    fn look(&mut self, stream: Stream, time: Timestamp, energy: f64) -> Disposition {
+        self.modes.see(stream, time, energy);
+        let Some((visual, failure)) = self.vision.look(self.modes.mode()) else { return Disposition::Used };
         if let Some(fusion) = &mut self.fusion {
-            let Estimate { odom_from_robot, covariance, .. } = self.visual;
-            let tracked = failure.is_none();
             // One that comes too late for the filters is still visual odometry's.
-            let _ = fusion.handle_visual(VisualPose {
-                time,
-                start_from_robot: odom_from_robot,
-                covariance,
-                tracked,
-                keyframe,
-            });
+            let _ = fusion.handle_visual(VisualPose { doubt: self.modes.doubt(), ..visual });
         }
         failure.map_or(Disposition::Used, |failure| Disposition::Rejected(Rejection::NoMotion(failure)))
     }
@@ -203,7 +126,7 @@ impl Estimator {
 
     fn estimate_from(&self, source: PoseSource) -> Estimate {
         match (&self.fusion, source) {
-            (None, _) | (_, PoseSource::Mvo) => self.visual.clone(),
+            (None, _) | (_, PoseSource::Mvo) => self.vision.estimate().clone(),
             (Some(fusion), PoseSource::Odometry) => {
                 self.on_plane(fusion.wheels_read_at(), fusion.odometry(), Mode::Odometer)
             }
@@ -214,7 +137,8 @@ impl Estimator {
 
     /// "When visual information is not available, the WO localization system will be used" (paper A, §1).
     fn fused_mode(&self) -> Mode {
-        if self.visual.health == Health::Good { self.visual.mode } else { Mode::Odometer }
+        let visual = self.vision.estimate();
+        if visual.health == Health::Good { visual.mode } else { Mode::Odometer }
     }
 
     fn on_plane(&self, time: Option<Timestamp>, pose: UncertainPose, mode: Mode) -> Estimate {
@@ -224,7 +148,7 @@ impl Estimator {
             odom_from_robot: pose.pose.to_isometry(),
             covariance: pose.covariance_in_space(),
             mode,
-            health: if wheels_speak { Health::Good } else { self.visual.health },
+            health: if wheels_speak { Health::Good } else { self.vision.estimate().health },
         }
     }
 }
@@ -233,23 +157,20 @@ impl Localizer for Estimator {
     fn handle(&mut self, measurement: Measurement) -> Disposition {
         let time = measurement.captured_at;
         match measurement.data {
-            MeasurementData::Rgb(image) => {
-                let last = self.rgb.as_ref().map(|(time, _)| *time);
-                if let Some(rejection) = self.check(time, last, image.size(), self.rig.colour.size()) {
-                    return Disposition::Rejected(rejection);
-                }
-                self.rgb = Some((time, image));
-                self.localise()
-            }
-            MeasurementData::Depth(image) => {
-                let last = self.depth.as_ref().map(|(time, _)| *time);
-                if let Some(rejection) = self.check(time, last, image.size(), self.rig.depth.model.size()) {
-                    return Disposition::Rejected(rejection);
-                }
-                self.depth = Some((time, image));
-                self.localise()
-            }
+            MeasurementData::Rgb(image) => match self.vision.take_rgb(time, Arc::clone(&image)) {
+                Ok(()) => self.look(Stream::Rgb, time, of_colour(&image)),
+                Err(rejection) => Disposition::Rejected(rejection),
+            },
+            MeasurementData::Infrared(image) => match self.vision.take_infrared(time, Arc::clone(&image)) {
+                Ok(()) => self.look(Stream::Infrared, time, of_infrared(&image)),
+                Err(rejection) => Disposition::Rejected(rejection),
+            },
+            MeasurementData::Depth(image) => match self.vision.take_depth(time, Arc::clone(&image)) {
+                Ok(()) => self.look(Stream::Depth, time, of_depth(&image, &self.depth_camera)),
+                Err(rejection) => Disposition::Rejected(rejection),
+            },
             MeasurementData::WheelTicks { left, right } => {
+                self.modes.pass(time);
                 disposition(self.fusion.as_mut().map(|fusion| fusion.handle_ticks(time, left, right)))
             }
             MeasurementData::Gyro(rate) => {
@@ -264,7 +185,7 @@ impl Localizer for Estimator {
     }
 
     fn wanted_streams(&self) -> Streams {
-        Streams { rgb: true, infrared: false, depth: true }
+        self.modes.wanted()
     }
 }
 
@@ -280,9 +201,12 @@ fn disposition(taken: Option<Result<(), Rejection>>) -> Disposition {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dark_room::{self, DarkRoom, Wall};
     use crate::fusion::Drive;
     use crate::image::Image;
-    use nalgebra::Vector3;
+    use crate::mode::ModeChoice;
+    use crate::motion::MotionFailure;
+    use nalgebra::{Isometry3, Vector3};
 
     fn estimator(drive: Option<Drive>, pose_from: PoseSource) -> Estimator {
         let mut rig = Rig { drive, ..Rig::kinect_default() };
@@ -331,6 +255,61 @@ mod tests {
             assert!((odom_from_robot.translation.vector - Vector3::x()).norm() < 1e-9);
             assert!(covariance[(0, 0)] > 0.0 && covariance[(2, 2)] == 0.0);
         }
+    }
+
+    #[test]
+    fn by_wheels_alone_no_image_counts() {
+        let rig = Rig { drive: Some(Drive::default()), ..Rig::kinect_default() };
+        let params = EstimatorParams { mode: ModeChoice::Wheels, ..EstimatorParams::default() };
+        let mut estimator = Estimator::new(params, rig).unwrap();
+        assert_eq!(estimator.wanted_streams(), Streams { rgb: false, infrared: false, depth: false });
+        // What stands still before the camera says that the robot does.
+        let image = Image::from_pixels(640, 480, (0..640 * 480).map(|i: u32| [(i * i % 251) as u8; 3]).collect());
+        let image = Arc::new(image.unwrap());
+        for tenth in 0..=20 {
+            let ticks = 6_900 * tenth;
+            hand_over(&mut estimator, 100 * tenth, MeasurementData::WheelTicks { left: ticks, right: ticks });
+            hand_over(&mut estimator, 100 * tenth, MeasurementData::Rgb(Arc::clone(&image)));
+            let seen = hand_over(
+                &mut estimator,
+                100 * tenth,
+                MeasurementData::Depth(Arc::new(Image::filled(640, 480, 9_000))),
+            );
+            assert_eq!(seen, Disposition::Used);
+        }
+        let [odometry, mvo, ekf, svsf] = &estimator.estimates()[..] else { panic!("four poses") };
+        assert_eq!(odometry.1.odom_from_robot, ekf.1.odom_from_robot);
+        assert_eq!(odometry.1.odom_from_robot, svsf.1.odom_from_robot);
+        assert_eq!((svsf.1.mode, svsf.1.health), (Mode::Odometer, Health::Good));
+        assert_eq!(mvo.1.health, Health::Lost(MotionFailure::NotSought));
+        assert_eq!(estimator.last_frame().unwrap().depth_valid_share, 1.0);
+    }
+
+    #[test]
+    fn when_the_light_goes_out_infrared_carries_on() {
+        let params = EstimatorParams { pose_from: PoseSource::Mvo, ..EstimatorParams::default() };
+        let mut estimator = Estimator::new(params, dark_room::rig()).unwrap();
+        let normal = Vector3::new(0.1, 0.0, 1.0).normalize();
+        let room = DarkRoom { walls: vec![Wall { normal, distance: 2.0 }], ambient: 0.0 };
+        let black = Arc::new(Image::filled(640, 480, [1; 3]));
+        let mut began = None;
+        for frame in 0..40_i32 {
+            let seen = room.seen_from(&Isometry3::translation(0.02 * f64::from(frame), 0.0, 0.0), frame as u64);
+            let millis = 66 * i64::from(frame);
+            hand_over(&mut estimator, millis, MeasurementData::Rgb(Arc::clone(&black)));
+            hand_over(&mut estimator, millis, MeasurementData::Infrared(Arc::new(seen.infrared)));
+            hand_over(&mut estimator, millis, MeasurementData::Depth(Arc::new(seen.depth)));
+            let Estimate { mode, health, .. } = estimator.estimate();
+            if mode == Mode::Night && health == Health::Good {
+                began.get_or_insert(frame);
+            }
+        }
+        // The dwell is a second; the first frame of the new kind has none to be held against.
+        let began = began.unwrap();
+        assert!((16..20).contains(&began), "{began}");
+        let gone = estimator.estimate().odom_from_robot.translation.vector;
+        let expected = Vector3::x() * (0.02 * f64::from(40 - began));
+        assert!((gone - expected).norm() < 0.02, "{gone} instead of {expected}");
     }
 
     #[test]

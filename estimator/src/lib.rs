@@ -19,6 +19,10 @@ pub mod odometry;
 pub mod params;
 pub mod structure;
 pub mod time;
+mod vision;
+
+#[cfg(test)]
+mod dark_room;
 
 pub use camera::Rig;
 pub use estimator::{Estimator, PoseSource, Stage};

@@ -6,12 +6,15 @@
 //! relative motion says nothing about where it began. What is left is a filter over `keyframe_from_robot` alone, and a
 //! keyframe whose pose and covariance stand still.
 
-use super::filter::{Gain, PoseFilter};
+use super::filter::{Gain, Outcome, PoseFilter};
 use super::planar::UncertainPose;
+use super::visual::VisualPose;
 
 /// `odom_from_keyframe`, and the filter over `keyframe_from_robot`.
 #[derive(Clone, Debug)]
 pub(super) struct Anchored<G> {
+    /// As visual odometry has it; `None` before the first.
+    keyframe: Option<VisualPose>,
     odom_from_keyframe: UncertainPose,
     /// At the instant of the last measurement.
     filter: PoseFilter<G>,
@@ -22,7 +25,7 @@ pub(super) struct Anchored<G> {
 impl<G: Gain> Anchored<G> {
     pub fn new(filter: PoseFilter<G>) -> Self {
         let now = *filter.estimate();
-        Self { odom_from_keyframe: UncertainPose::default(), filter, now }
+        Self { keyframe: None, odom_from_keyframe: UncertainPose::default(), filter, now }
     }
 
     /// The pose now.
@@ -44,16 +47,18 @@ impl<G: Gain> Anchored<G> {
         self.now = *self.filter.estimate();
     }
 
-    /// Takes a measured `keyframe_from_robot` of the filter's instant.
-    pub fn update(&mut self, measured: &UncertainPose) {
-        self.filter.update_pose(measured);
-        self.now = *self.filter.estimate();
-    }
-
-    /// Makes the filter's pose the keyframe.
-    pub fn anchor(&mut self) {
-        self.odom_from_keyframe = self.odom_from_keyframe.compose(self.filter.estimate());
-        self.filter.restart();
+    /// Takes a frame of the filter's instant: the motion since the keyframe, and a new keyframe if it is one. `stays`: the
+    /// first keyframe stays the only one.
+    pub fn take(&mut self, frame: &VisualPose, stays: bool) {
+        let measured = self.keyframe.filter(|_| frame.tracked).map(|keyframe| frame.since(&keyframe));
+        let outcome = measured.map(|measured| self.filter.update_pose(&measured));
+        // What was kept out may turn out to be true: with the old keyframe nothing of it is lost by then.
+        let may_anchor = outcome != Some(Outcome::Gated) && !(stays && self.keyframe.is_some());
+        if frame.keyframe && may_anchor {
+            self.keyframe = Some(*frame);
+            self.odom_from_keyframe = self.odom_from_keyframe.compose(self.filter.estimate());
+            self.filter.restart();
+        }
         self.now = *self.filter.estimate();
     }
 }

@@ -76,7 +76,7 @@ mod tests {
     fn with_a_certain_heading_it_is_the_linear_kalman_filter() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let mut number = move || random.random_range(-1.0..1.0);
-        let mut ekf = Ekf::new(UncertainPose::default(), GateParams::default());
+        let mut ekf = Ekf::new(UncertainPose::default(), GateParams::open());
         let mut oracle = StateAndCovariance::new(Vector3::zeros(), Matrix3::zeros());
         for _ in 0..200 {
             let (identity, mut root) = (Matrix3::identity(), Matrix3::from_fn(|_, _| 0.2 * number()));
@@ -106,7 +106,7 @@ mod tests {
         // P⁻¹ + Hᵀ R⁻¹ H, the other textbook form, with a heading that is uncertain.
         let root = Matrix3::new(0.3, 0.0, 0.0, 0.1, 0.2, 0.0, -0.05, 0.1, 0.15);
         let start = UncertainPose { pose: PlanarPose::new(1.0, 2.0, 0.5), covariance: root * root.transpose() };
-        let mut ekf = Ekf::new(start, GateParams::default());
+        let mut ekf = Ekf::new(start, GateParams::open());
         let noise = Matrix3::from_diagonal(&Vector3::new(0.04, 0.01, 0.02));
         let away = Vector3::new(0.1, -0.2, 0.05);
         ekf.update_pose(&UncertainPose { pose: start.pose.plus(&away), covariance: noise });
@@ -120,7 +120,7 @@ mod tests {
     fn landmarks_bring_the_pose_home() {
         let truth = PlanarPose::new(0.3, -0.2, 3.0);
         let start = UncertainPose { pose: PlanarPose::new(0.0, 0.0, -3.1), covariance: Matrix3::identity() * 0.1 };
-        let mut ekf = Ekf::new(start, GateParams::default());
+        let mut ekf = Ekf::new(start, GateParams::open());
         for round in 0..20 {
             let landmark = Point2::new(3.0 * f64::from(round % 3) - 3.0, 2.0);
             let seen = Vector2::new(landmark.x - truth.x, landmark.y - truth.y);

@@ -38,6 +38,14 @@ impl<const M: usize> Innovation<M> {
     fn mahalanobis_squared(&self) -> Option<f64> {
         Some(self.error.dot(&(self.covariance().try_inverse()? * self.error)))
     }
+
+    /// Whether another error points the same way, within 60° where a σ is as long in each direction: of random ones a
+    /// quarter does.
+    fn agrees_with(&self, other: &SVector<f64, M>) -> bool {
+        let Some(information) = self.covariance().try_inverse() else { return false };
+        let product = |a: &SVector<f64, M>, b: &SVector<f64, M>| a.dot(&(information * b));
+        product(&self.error, other) >= 0.5 * (product(&self.error, &self.error) * product(other, other)).sqrt()
+    }
 }
 
 /// A landmark as the robot sees it.
@@ -70,13 +78,15 @@ pub struct PoseFilter<G> {
     gate: Gate,
     pose_posterior: Vector3<f64>,
     landmark_posterior: Vector2<f64>,
+    /// The innovation of the last pose, if that was beyond the gate.
+    surprise: Option<Vector3<f64>>,
 }
 
 impl<G: Gain> PoseFilter<G> {
     /// Starts from an estimate.
     pub fn with_gain(start: UncertainPose, gain: G, gate: GateParams) -> Self {
         let (pose_posterior, landmark_posterior) = (Vector3::zeros(), Vector2::zeros());
-        Self { estimate: start, gain, gate: Gate::new(gate), pose_posterior, landmark_posterior }
+        Self { estimate: start, gain, gate: Gate::new(gate), pose_posterior, landmark_posterior, surprise: None }
     }
 
     /// The pose and its covariance.
@@ -101,7 +111,9 @@ impl<G: Gain> PoseFilter<G> {
             predicted: self.estimate.covariance,
             noise: measured.covariance,
         };
-        let outcome = self.correct(&mut seen, G::for_pose);
+        let repeats = self.surprise.is_none_or(|last| seen.agrees_with(&last));
+        let outcome = self.correct(&mut seen, repeats, G::for_pose);
+        self.surprise = (!self.gate.is_calm()).then_some(seen.error);
         if outcome == Outcome::Fused {
             self.pose_posterior = measured.pose.minus(&self.estimate.pose);
         }
@@ -118,7 +130,8 @@ impl<G: Gain> PoseFilter<G> {
             predicted: self.estimate.covariance,
             noise: sighting.covariance,
         };
-        let outcome = self.correct(&mut seen, G::for_landmark);
+        // Sightings of different landmarks can't be compared.
+        let outcome = self.correct(&mut seen, true, G::for_landmark);
         if outcome == Outcome::Fused {
             self.landmark_posterior = landmark_error(sighting, landmark, &self.estimate.pose);
         }
@@ -129,18 +142,20 @@ impl<G: Gain> PoseFilter<G> {
     pub fn restart(&mut self) {
         // What was left unexplained is still so; it is only seen from the new axes.
         self.pose_posterior = self.estimate.pose.turn().transpose() * self.pose_posterior;
+        self.surprise = self.surprise.map(|error| self.estimate.pose.turn().transpose() * error);
         self.estimate = UncertainPose::default();
     }
 
     fn correct<const M: usize>(
         &mut self,
         seen: &mut Innovation<M>,
+        repeats: bool,
         gain: impl Fn(&G, &Innovation<M>) -> Option<SMatrix<f64, 3, M>>,
     ) -> Outcome {
         let Some(squared) = seen.mahalanobis_squared().filter(|squared| squared.is_finite()) else {
             return Outcome::Unusable;
         };
-        match self.gate.judge(squared) {
+        match self.gate.judge(squared, repeats) {
             Verdict::Admit => {}
             Verdict::Refuse => return Outcome::Gated,
             Verdict::AdmitDoubting(factor) => seen.predicted *= factor,

@@ -11,15 +11,24 @@ pub struct GateParams {
     /// Largest squared Mahalanobis distance of an innovation; χ² of 99 % is 11.34 for a pose, 9.21 for range and
     /// bearing.
     pub limit: f64,
-    /// After so many refusals in a row it is the filter that is taken to be wrong: the next measurement is let in, and
-    /// the filter's covariance is raised until it fits. Without this a gate locks a lost filter out for good.
+    /// After so many refusals in a row that agree with each other it is the filter that is taken to be wrong: until one
+    /// passes or disagrees, what is measured is let in, and the filter's covariance is raised until it fits. Without this
+    /// a gate locks a lost filter out for good. What is wrong in another way each time says nothing against the filter.
     pub max_refusals: usize,
 }
 
 impl Default for GateParams {
-    /// Off: on the P3-AT it is the wheels that slip, and a gate would keep out what notices it. The limit is for poses.
+    /// The limit is for poses. On the P3-AT it is the wheels that slip: a gate without a way back would keep out what
+    /// notices it.
     fn default() -> Self {
-        Self { enabled: false, limit: 11.34, max_refusals: 5 }
+        Self { enabled: true, limit: 11.34, max_refusals: 5 }
+    }
+}
+
+impl GateParams {
+    /// None: all is believed.
+    pub fn open() -> Self {
+        Self { enabled: false, ..Self::default() }
     }
 }
 
@@ -44,17 +53,25 @@ impl Gate {
         Self { params, refusals: 0 }
     }
 
-    /// Judges an innovation by its squared Mahalanobis distance.
-    pub fn judge(&mut self, squared: f64) -> Verdict {
+    /// Whether the last measurement was within the gate.
+    pub fn is_calm(&self) -> bool {
+        self.refusals == 0
+    }
+
+    /// Judges an innovation by its squared Mahalanobis distance; `repeats`: whether it says what the last one that was
+    /// refused said.
+    pub fn judge(&mut self, squared: f64, repeats: bool) -> Verdict {
         if !self.params.enabled || squared <= self.params.limit {
             self.refusals = 0;
             return Verdict::Admit;
+        }
+        if !repeats {
+            self.refusals = 0;
         }
         if self.refusals < self.params.max_refusals {
             self.refusals += 1;
             return Verdict::Refuse;
         }
-        self.refusals = 0;
         // Scaled by the distance's excess, a covariance that makes up most of the innovation's just fits.
         Verdict::AdmitDoubting(squared / self.params.limit)
     }
@@ -67,10 +84,12 @@ mod tests {
     #[test]
     fn a_gate_keeps_out_and_lets_back_in() {
         let mut gate = Gate::new(GateParams { enabled: true, limit: 9.0, max_refusals: 2 });
-        let verdicts = [4.0, 20.0, 5.0, 20.0, 30.0, 18.0, 20.0].map(|squared| gate.judge(squared));
+        let verdicts = [4.0, 20.0, 5.0, 20.0, 30.0, 18.0, 20.0].map(|squared| gate.judge(squared, true));
         use Verdict::{Admit, AdmitDoubting, Refuse};
-        assert_eq!(verdicts, [Admit, Refuse, Admit, Refuse, Refuse, AdmitDoubting(2.0), Refuse]);
-        let mut open = Gate::new(GateParams::default());
-        assert_eq!(open.judge(1e9), Admit);
+        assert_eq!(verdicts, [Admit, Refuse, Admit, Refuse, Refuse, AdmitDoubting(2.0), AdmitDoubting(20.0 / 9.0)]);
+        let mut open = Gate::new(GateParams::open());
+        assert_eq!(open.judge(1e9, true), Admit);
+        // Wrong in another way each time, for ever.
+        assert!((0..9).all(|_| gate.judge(20.0, false) == Refuse));
     }
 }

@@ -97,7 +97,8 @@ pub struct Fusion {
     steps: VecDeque<Step>,
     /// Frames newer than the wheels.
     waiting: VecDeque<VisualPose>,
-    keyframe: Option<VisualPose>,
+    /// Whether there was a frame.
+    has_fused: bool,
     /// The newest instant of a reading of either kind.
     newest: Option<Timestamp>,
 }
@@ -114,7 +115,7 @@ impl Fusion {
             filtered_until: None,
             steps: VecDeque::new(),
             waiting: VecDeque::new(),
-            keyframe: None,
+            has_fused: false,
             newest: None,
         }
     }
@@ -185,7 +186,7 @@ impl Fusion {
     /// [`Rejection::OutOfOrder`] for a frame that came too late, or no later than the last one, and
     /// [`Rejection::ImpossiblePose`].
     pub fn handle_visual(&mut self, visual: VisualPose) -> Result<(), Rejection> {
-        let last = self.waiting.back().map(|waiting| waiting.time).or(self.keyframe.and(self.filtered_until));
+        let last = self.waiting.back().map(|waiting| waiting.time).or(self.filtered_until.filter(|_| self.has_fused));
         let too_late = self.filtered_until.is_some_and(|until| visual.time < until);
         if too_late || last.is_some_and(|last| visual.time <= last) {
             return Err(Rejection::OutOfOrder);
@@ -217,17 +218,10 @@ impl Fusion {
 
     fn fuse(&mut self, frame: VisualPose) {
         self.predict_until(frame.time);
-        if let Some(keyframe) = self.keyframe.filter(|_| frame.tracked) {
-            let measured = frame.since(&keyframe);
-            self.ekf.update(&measured);
-            self.svsf.update(&measured);
-        }
         let free_running = self.params.visual == VisualMeasurement::FreeRunning;
-        if frame.keyframe && !(free_running && self.keyframe.is_some()) {
-            self.keyframe = Some(frame);
-            self.ekf.anchor();
-            self.svsf.anchor();
-        }
+        self.ekf.take(&frame, free_running);
+        self.svsf.take(&frame, free_running);
+        self.has_fused = true;
         // Both now stand at the frame; what the wheels have told since is driven again from there.
         for index in 0..self.steps.len() {
             let step = self.steps[index];

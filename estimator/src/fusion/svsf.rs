@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn beyond_the_layer_the_estimate_goes_all_the_way() {
         let params = SvsfParams { gamma: 0.0, layer_sigma: 2.0 };
-        let mut svsf = Svsf::new(UncertainPose::default(), params, GateParams::default());
+        let mut svsf = Svsf::new(UncertainPose::default(), params, GateParams::open());
         // σ is 0.1, so the layer is 0.2: x and heading lie beyond it, the heading the short way round; y half way in.
         svsf.update_pose(&at(0.5, 0.1, -0.3));
         let estimate = svsf.estimate();
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn what_was_left_unexplained_is_added_to_the_next_step() {
         let params = SvsfParams { gamma: 0.4, layer_sigma: 2.0 };
-        let mut svsf = Svsf::new(UncertainPose::default(), params, GateParams::default());
+        let mut svsf = Svsf::new(UncertainPose::default(), params, GateParams::open());
         svsf.update_pose(&at(0.1, 0.0, 0.0));
         assert!((svsf.estimate().pose.x - 0.05).abs() < 1e-12);
         // E = 0.05 again and E_{k|k} = 0.05: K = (0.05 + 0.4 · 0.05) / 0.2.
@@ -113,14 +113,14 @@ mod tests {
     #[test]
     fn angles_wrap_before_they_are_compared() {
         let start = UncertainPose { pose: PlanarPose::new(0.0, 0.0, 3.1), ..UncertainPose::default() };
-        let mut svsf = Svsf::new(start, SvsfParams::default(), GateParams::default());
+        let mut svsf = Svsf::new(start, SvsfParams::default(), GateParams::open());
         svsf.update_pose(&at(0.0, 0.0, -3.1));
         assert!((svsf.estimate().pose.heading.abs() - std::f64::consts::PI).abs() < 0.05);
     }
 
     #[test]
     fn no_error_needs_no_guard() {
-        let mut svsf = Svsf::new(UncertainPose::default(), SvsfParams::default(), GateParams::default());
+        let mut svsf = Svsf::new(UncertainPose::default(), SvsfParams::default(), GateParams::open());
         let certain = UncertainPose::default();
         assert_eq!(svsf.update_pose(&certain), Outcome::Unusable);
         assert_eq!(svsf.update_pose(&at(0.0, 0.0, 0.0)), Outcome::Fused);

@@ -89,6 +89,7 @@ impl Robot {
             covariance: covariance + own,
             tracked: true,
             keyframe: self.frames.is_multiple_of(4),
+            doubt: 1.0,
         };
         if visual.keyframe {
             self.keyframe = (self.truth, start_from_robot, visual.covariance);
@@ -180,6 +181,7 @@ fn frame(time: f64, x: f64) -> VisualPose {
         covariance: Matrix6::identity() * (1e-6 * (1.0 + time)),
         tracked: true,
         keyframe: true,
+        doubt: 1.0,
     }
 }
 
@@ -251,6 +253,60 @@ fn free_running_follows_the_camera_wherever_it_drifts() {
             assert!((estimate.pose.x - expected).abs() < 0.05, "{visual:?} {estimate:?}");
         }
     }
+}
+
+#[test]
+fn what_is_wrong_in_another_way_each_time_is_kept_out() {
+    for enabled in [false, true] {
+        let gate = GateParams { enabled, ..GateParams::default() };
+        let mut fusion = Fusion::new(FusionParams { gate, ..FusionParams::default() }, Drive::default());
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut step = || -> f64 { 0.3 * <StandardNormal as Distribution<f64>>::sample(&StandardNormal, &mut random) };
+        straight_on(&mut fusion, 0, 101, true, |time| {
+            // Each frame a motion that a few bad features agree on by chance, against the same keyframe.
+            let x = if time < 0.1 { 0.0 } else { 0.5 * time + step() };
+            Some(VisualPose { keyframe: time < 0.1, ..frame(time, x) })
+        });
+        for estimate in [fusion.ekf(), fusion.svsf()] {
+            let error = (estimate.pose.x - 5.0).abs();
+            assert!(if enabled { error < 0.1 } else { error > 0.1 }, "gate: {enabled}, {error} m");
+        }
+    }
+}
+
+#[test]
+fn wheels_that_spin_are_found_out() {
+    // From the second second on the wheels turn on the spot; the camera says so in each frame.
+    for keyframes in [1, 4] {
+        let mut fusion = Fusion::new(FusionParams::default(), Drive::default());
+        let mut frames = 0;
+        straight_on(&mut fusion, 0, 61, true, |time| {
+            frames += 1;
+            let x = 0.5 * time.min(2.0);
+            Some(VisualPose { keyframe: frames % keyframes == 0, ..frame(time, x) })
+        });
+        for estimate in [fusion.ekf(), fusion.svsf()] {
+            assert!((estimate.pose.x - 1.0).abs() < 0.35, "{keyframes} {estimate:?}");
+        }
+    }
+}
+
+#[test]
+fn a_doubtful_mode_weighs_little() {
+    let fused = |doubt: f64| {
+        let params = FusionParams { gate: GateParams::open(), ..FusionParams::default() };
+        let mut fusion = Fusion::new(params, Drive::default());
+        let random = |time: f64| 0.02 * (37.0 * time).sin();
+        straight_on(&mut fusion, 0, 41, true, |time| {
+            let covariance = Matrix6::identity() * (1e-4 * (1.0 + time));
+            Some(VisualPose { doubt, covariance, ..frame(time, 0.5 * time + random(time) * time.min(1.0)) })
+        });
+        fusion.ekf()
+    };
+    let (sure, doubtful, none) = (fused(1.0), fused(25.0), fused(1e7));
+    let away = |estimate: &UncertainPose| (estimate.pose.x - none.pose.x).abs();
+    assert!(away(&doubtful) < 0.3 * away(&sure), "{} {}", away(&doubtful), away(&sure));
+    assert!(doubtful.covariance[(0, 0)] > sure.covariance[(0, 0)]);
 }
 
 /// What may happen to a filter.
@@ -340,7 +396,7 @@ proptest! {
             let start_from_robot = Isometry3::from_parts(nalgebra::Translation3::new(numbers[0], numbers[1], numbers[2]), turn);
             let root = Vector6::new(numbers[5], numbers[6], numbers[7], 1.0, 0.1, 0.3);
             let covariance = Matrix6::from_diagonal(&root.abs()) + root * root.transpose();
-            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe });
+            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe, doubt: 1.0 });
             for estimate in [fusion.odometry(), fusion.ekf(), fusion.svsf()] {
                 prop_assert!(estimate.is_finite(), "{estimate:?}");
             }

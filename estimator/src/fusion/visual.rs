@@ -26,6 +26,9 @@ pub struct VisualPose {
     pub tracked: bool,
     /// Whether the frames after this one are measured against it.
     pub keyframe: bool,
+    /// What the variance of the motion since the keyframe is to be multiplied by: 1, or more where the images it rests on
+    /// are of doubtful use.
+    pub doubt: f64,
 }
 
 impl VisualPose {
@@ -43,14 +46,16 @@ impl VisualPose {
         };
         let since = on_plane(&(self.covariance - keyframe.covariance));
         // A pose that is surer than its keyframe was not measured from it: then its own covariance has to do.
-        if since.covariance.cholesky().is_some() { since } else { on_plane(&self.covariance) }
+        let mut since = if since.covariance.cholesky().is_some() { since } else { on_plane(&self.covariance) };
+        since.covariance *= self.doubt;
+        since
     }
 
     /// Whether a robot may have it: finite numbers, small enough that no square of them runs over.
     pub(super) fn is_possible(&self) -> bool {
         let pose = &self.start_from_robot;
         let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
-        numbers.chain(self.covariance.iter()).all(|value| value.abs() < LARGEST)
+        numbers.chain(self.covariance.iter()).chain([&self.doubt]).all(|value| value.abs() < LARGEST)
     }
 }
 
@@ -71,6 +76,7 @@ mod tests {
             covariance: Matrix6::identity() * 0.04,
             tracked: true,
             keyframe: true,
+            doubt: 1.0,
         };
         let motion = PlanarPose::new(0.1, 0.02, 0.05);
         let start_from_robot = keyframe.start_from_robot * motion.to_isometry();
@@ -81,6 +87,8 @@ mod tests {
         assert!(since.pose.minus(&motion).norm() < 1e-9);
         let expected = Matrix3::identity() * (1e-6 + LEAST_SIGMA * LEAST_SIGMA);
         assert!((since.covariance - expected).norm() < 1e-8, "{}", since.covariance);
+        let doubtful = VisualPose { start_from_robot, covariance, doubt: 4.0, ..keyframe }.since(&keyframe);
+        assert!((doubtful.covariance - since.covariance * 4.0).norm() < 1e-12);
         let surer = VisualPose { covariance: Matrix6::identity() * 0.01, ..keyframe };
         assert!(surer.since(&keyframe).covariance.cholesky().is_some());
     }

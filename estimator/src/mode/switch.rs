@@ -8,6 +8,9 @@ use super::video::Video;
 use crate::measurement::{Mode, Streams};
 use crate::time::Timestamp;
 
+/// A mode that less speaks for counts for no less, so that variances stay numbers: a hundredth of the weight is nothing.
+const LEAST_DEGREE: f64 = 0.1;
+
 /// Who decides on the mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -157,6 +160,13 @@ impl ModeSwitch {
     /// The mode.
     pub fn mode(&self) -> Mode {
         self.mode
+    }
+
+    /// By how much the variance of a motion that rests on the mode's images is too small, because little speaks for the
+    /// mode any more; 1 for a mode that was chosen.
+    pub fn doubt(&self) -> f64 {
+        let degree = if self.choice == ModeChoice::Auto { self.inference.degrees.of(self.mode) } else { 1.0 };
+        degree.max(LEAST_DEGREE).powi(-2)
     }
 
     /// The images that are wanted.

@@ -76,4 +76,10 @@ pub enum MotionFailure {
         /// Standard deviation along the weakest direction at the points' distance, metres.
         sigma: f64,
     },
+    /// The first frame of its kind after a change of mode.
+    #[error("no earlier frame of the mode's images")]
+    NoReference,
+    /// The mode goes by the wheels: no image can be trusted.
+    #[error("no image that the mode trusts")]
+    NotSought,
 }

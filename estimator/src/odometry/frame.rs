@@ -10,13 +10,22 @@ use crate::structure::{DepthNoise, Landmark, Registration, depth_at, lift};
 /// Features with depth, strongest first; `landmarks[i]` belongs to `features[i]`.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// In the colour image.
+    /// In the image that the mode takes them from: colour or, at night, infrared.
     pub features: Vec<Feature>,
     /// In the colour camera's frame.
     pub landmarks: Vec<Landmark>,
 }
 
-/// Makes frames of images.
+/// The paper's own variant uses no depth beyond 2.4 m; ours weighs it by its uncertainty.
+pub(super) fn depth_noise(params: &EstimatorParams) -> DepthNoise {
+    let mut noise = params.depth_noise;
+    if params.variant == Variant::Paper {
+        noise.max_depth = noise.max_depth.min(params.paper.max_depth);
+    }
+    noise
+}
+
+/// Makes frames of colour and depth images.
 pub struct FrameBuilder {
     registration: Registration,
     surf: Surf,
@@ -27,11 +36,8 @@ pub struct FrameBuilder {
 impl FrameBuilder {
     /// Tables for one rig.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
-        let mut noise = params.depth_noise;
-        if params.variant == Variant::Paper {
-            noise.max_depth = noise.max_depth.min(params.paper.max_depth);
-        }
-        Self { registration: Registration::new(rig), surf: Surf::new(params.surf), noise, rig: rig.clone() }
+        let (registration, surf) = (Registration::new(rig), Surf::new(params.surf));
+        Self { registration, surf, noise: depth_noise(params), rig: rig.clone() }
     }
 
     /// Registration, SURF, and the lift to 3D (paper A, §3.1: RGB feature + registered depth).
@@ -39,7 +45,7 @@ impl FrameBuilder {
         stage(Stage::Registration);
         let registered = self.registration.register(depth);
         stage(Stage::Features);
-        let has_depth = |x: f32, y: f32| depth_at(x, y, &registered, &self.noise).is_some();
+        let has_depth = |x: f32, y: f32, _: f32| depth_at(x, y, &registered, &self.noise).is_some();
         let (features, landmarks) = self
             .surf
             .detect_where(&rgb.to_luma(), has_depth)

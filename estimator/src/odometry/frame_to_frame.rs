@@ -3,7 +3,7 @@
 use crate::estimator::Stage;
 use crate::features::matching::match_features;
 use crate::geometry::adjoint;
-use crate::motion::{Pair, icp_surf};
+use crate::motion::{MotionFailure, Pair, icp_surf};
 use crate::params::EstimatorParams;
 
 use super::{CameraPose, FeatureTrack, Frame, Tracking};
@@ -12,20 +12,28 @@ use super::{CameraPose, FeatureTrack, Frame, Tracking};
 pub struct FrameToFrame {
     params: EstimatorParams,
     last: Option<Frame>,
+    /// Whether there was a frame before.
+    started: bool,
     pose: CameraPose,
 }
 
 impl FrameToFrame {
     /// Nothing seen yet.
     pub fn new(params: &EstimatorParams) -> Self {
-        Self { params: params.clone(), last: None, pose: CameraPose::start() }
+        Self { params: params.clone(), last: None, started: false, pose: CameraPose::start() }
+    }
+
+    /// Gives the last frame up: what comes next shows other images, or another place.
+    pub fn restart(&mut self) {
+        self.last = None;
     }
 
     /// Follows one frame. A motion that could not be had counts as none, as the paper has no word on it; the next
     /// frame is held against this one.
     pub fn track(&mut self, frame: Frame, stage: &mut dyn FnMut(Stage)) -> Tracking {
         let Some(last) = self.last.replace(frame) else {
-            return Tracking { pose: self.pose.clone(), failure: None, tracks: Vec::new(), keyframe: true };
+            let failure = std::mem::replace(&mut self.started, true).then_some(MotionFailure::NoReference);
+            return Tracking { pose: self.pose.clone(), failure, tracks: Vec::new(), keyframe: true };
         };
         let frame = self.last.as_ref().expect("just put there");
         stage(Stage::Matching);

@@ -61,8 +61,10 @@ struct Keyframe {
 /// Holds each frame against the newest keyframes.
 pub struct Keyframes {
     params: EstimatorParams,
-    /// Newest last; empty before the first frame only.
+    /// Newest last; empty before the first frame and after a [`restart`](Self::restart).
     window: VecDeque<Keyframe>,
+    /// Whether there was a frame before.
+    started: bool,
     /// The pose of the last frame, its covariance grown by the frames lost since.
     last: CameraPose,
     lost_frames: usize,
@@ -71,7 +73,14 @@ pub struct Keyframes {
 impl Keyframes {
     /// Nothing seen yet.
     pub fn new(params: &EstimatorParams) -> Self {
-        Self { params: params.clone(), window: VecDeque::new(), last: CameraPose::start(), lost_frames: 0 }
+        let (window, last) = (VecDeque::new(), CameraPose::start());
+        Self { params: params.clone(), window, started: false, last, lost_frames: 0 }
+    }
+
+    /// Gives the keyframes up: what comes next shows other images, or another place.
+    pub fn restart(&mut self) {
+        self.window.clear();
+        self.lost_frames = 0;
     }
 
     /// Follows one frame.
@@ -80,6 +89,9 @@ impl Keyframes {
         let found = frame.features.len();
         if found < needed {
             return self.lose(frame, MotionFailure::TooFewFeatures { found, needed }, Vec::new());
+        }
+        if self.window.is_empty() && self.started {
+            return self.lose(frame, MotionFailure::NoReference, Vec::new());
         }
         if self.window.is_empty() {
             self.remember(frame);
@@ -149,6 +161,7 @@ impl Keyframes {
 
     /// Makes `frame`, seen from the last pose, the newest keyframe.
     fn remember(&mut self, frame: Frame) {
+        self.started = true;
         self.window.push_back(Keyframe { pose: self.last.clone(), frame });
         if self.window.len() > self.params.keyframes.window {
             self.window.pop_front();
@@ -165,8 +178,11 @@ impl Keyframes {
         // The perturbation acts at the camera; seen from the start frame its rotation swings the camera's position.
         let carry = adjoint(&self.last.start_from_camera);
         self.last.covariance += carry * Matrix6::from_diagonal(&growth.component_mul(&growth)) * carry.transpose();
-        let start_over =
-            self.lost_frames > params.max_lost_frames && !matches!(failure, MotionFailure::TooFewFeatures { .. });
+        let start_over = match failure {
+            MotionFailure::NoReference => true,
+            MotionFailure::TooFewFeatures { .. } => false,
+            _ => self.lost_frames > params.max_lost_frames,
+        };
         if start_over {
             self.window.clear();
             self.remember(frame);

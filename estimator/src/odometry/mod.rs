@@ -1,9 +1,11 @@
-//! Visual odometry from colour and depth (paper A, §4): `frame` (features with 3D points), then motion against a
-//! window of keyframes (`keyframes`) or, as the paper has it, against the frame before (`frame_to_frame`).
+//! Visual odometry (paper A, §4): features with 3D points from colour and depth (`frame`) or infrared and depth
+//! (`night`), then motion against a window of keyframes (`keyframes`) or, as the paper has it, against the frame before
+//! (`frame_to_frame`).
 
 mod frame;
 mod frame_to_frame;
 mod keyframes;
+mod night;
 
 use nalgebra::{Isometry3, Matrix6};
 
@@ -14,6 +16,9 @@ use crate::time::Timestamp;
 pub use frame::{Frame, FrameBuilder};
 pub use frame_to_frame::FrameToFrame;
 pub use keyframes::{KeyframeParams, Keyframes};
+pub use night::NightFrameBuilder;
+
+use frame::depth_noise;
 
 /// Where a frame's camera was, in the frame of the first camera.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +49,14 @@ pub struct Tracking {
     pub keyframe: bool,
 }
 
+impl Tracking {
+    /// Of a frame that nobody followed.
+    pub(crate) fn none() -> Self {
+        let failure = Some(MotionFailure::NotSought);
+        Self { pose: CameraPose::start(), failure, tracks: Vec::new(), keyframe: false }
+    }
+}
+
 /// What the odometry made of one frame: for reports, not for control.
 #[derive(Clone, Debug)]
 pub struct FrameReport {
@@ -63,7 +76,7 @@ pub struct FrameReport {
     pub tracks: Vec<FeatureTrack>,
 }
 
-/// One match in image coordinates (colour pixels).
+/// One match in image coordinates: pixels of the image that the mode takes its features from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureTrack {
     /// In the reference frame.

@@ -1,7 +1,12 @@
-//! 3D points from images: depth carried into the colour image, features lifted to points with their uncertainty.
+//! 3D points from images: depth carried into the colour image, or albedo recovered from the infrared one (`albedo`, with
+//! the projector's `pattern`); features lifted to points with their uncertainty.
 
+mod albedo;
+mod blur;
 mod lift;
+mod pattern;
 mod register;
 
+pub use albedo::{Albedo, AlbedoCamera};
 pub use lift::{DepthNoise, Landmark, MAX_WINDOW, depth_at, lift};
 pub use register::{RegisteredDepth, Registration};

@@ -73,14 +73,14 @@ impl Surf {
 
     /// Features of `image`, strongest first, at most `max_features`, spread over the image.
     pub fn detect(&mut self, image: &GrayImage) -> Vec<Feature> {
-        self.detect_where(image, |_, _| true)
+        self.detect_where(image, |_, _, _| true)
     }
 
-    /// Features of `image` at places (x, y), in pixels, that are `wanted`: others cost no budget.
-    pub fn detect_where(&mut self, image: &GrayImage, wanted: impl Fn(f32, f32) -> bool) -> Vec<Feature> {
+    /// Features of `image` at places (x, y) and scales, all in pixels, that are `wanted`: others cost no budget.
+    pub fn detect_where(&mut self, image: &GrayImage, wanted: impl Fn(f32, f32, f32) -> bool) -> Vec<Feature> {
         self.integral.compute(image);
         let mut maxima = self.detector.maxima(&self.integral, self.params.octaves, self.params.min_response);
-        maxima.retain(|maximum| wanted(maximum.x, maximum.y));
+        maxima.retain(|maximum| wanted(maximum.x, maximum.y, maximum.scale));
         let kept = spread::spread(maxima, image.size(), self.params.cell, self.params.max_features);
         kept.iter().map(|maximum| describe(&self.integral, maximum)).collect()
     }

@@ -1,0 +1,56 @@
+//! One instant in the dark: features of the albedo at 830 nm, the projector being the lamp (paper A, §3.3).
+
+use crate::camera::Rig;
+use crate::estimator::Stage;
+use crate::features::surf::Surf;
+use crate::image::{DepthImage, InfraredImage};
+use crate::params::EstimatorParams;
+use crate::structure::{AlbedoCamera, DepthNoise, depth_at, lift};
+
+use super::{Frame, depth_noise};
+
+/// Least scale of a feature, pixels. Smaller ones lie on what is left of single dots, which are fixed to the sensor.
+const MIN_SCALE: f32 = 2.8;
+
+/// Makes frames of infrared and depth images.
+pub struct NightFrameBuilder {
+    camera: AlbedoCamera,
+    surf: Surf,
+    noise: DepthNoise,
+    rig: Rig,
+}
+
+impl NightFrameBuilder {
+    /// For one rig; `None` where depth does not lie in the infrared image's pixels.
+    pub fn new(params: &EstimatorParams, rig: &Rig) -> Option<Self> {
+        let camera = (!rig.depth.registered_to_colour).then(|| AlbedoCamera::new(&rig.depth))?;
+        Some(Self { camera, surf: Surf::new(params.surf), noise: depth_noise(params), rig: rig.clone() })
+    }
+
+    /// The albedo, SURF on it, and the lift to 3D.
+    pub fn build(&mut self, infrared: &InfraredImage, depth: &DepthImage, stage: &mut dyn FnMut(Stage)) -> Frame {
+        stage(Stage::Registration);
+        let albedo = self.camera.recover(infrared, depth);
+        stage(Stage::Features);
+        let has_depth =
+            |x: f32, y: f32, scale: f32| scale >= MIN_SCALE && depth_at(x, y, &albedo.depth, &self.noise).is_some();
+        let (features, landmarks) = self
+            .surf
+            .detect_where(&albedo.image, has_depth)
+            .into_iter()
+            .filter_map(|feature| {
+                let landmark = lift(&feature, &albedo.depth, &self.rig.depth.model, &self.noise)?;
+                Some((feature, landmark.moved(&self.rig.colour_from_depth)))
+            })
+            .unzip();
+        Frame { features, landmarks }
+    }
+
+    /// Learns the projector's dots from the image of the last frame. To be called once the view has changed.
+    pub fn learn(&mut self) {
+        self.camera.learn();
+    }
+}
+
+#[cfg(test)]
+mod tests;

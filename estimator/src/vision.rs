@@ -1,0 +1,231 @@
+//! Visual odometry from whichever images the mode rests on.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Matrix6};
+
+use crate::camera::Rig;
+use crate::estimator::{Stage, StageObserver};
+use crate::fusion::VisualPose;
+use crate::geometry::adjoint;
+use crate::image::{DepthImage, Image, InfraredImage, RgbImage};
+use crate::measurement::{Estimate, Health, Mode, Rejection};
+use crate::motion::MotionFailure;
+use crate::odometry::{Frame, FrameBuilder, FrameReport, FrameToFrame, Keyframes, NightFrameBuilder, Tracking};
+use crate::params::{EstimatorParams, Variant};
+use crate::time::Timestamp;
+
+/// Images further apart than this are not of one frame: half a period at 30 Hz, rounded up. Seconds.
+const MAX_PAIR_GAP: f64 = 0.02;
+
+enum Odometry {
+    Keyframes(Box<Keyframes>),
+    FrameToFrame(Box<FrameToFrame>),
+}
+
+impl Odometry {
+    fn new(params: &EstimatorParams) -> Self {
+        match params.variant {
+            Variant::Keyframes => Self::Keyframes(Box::new(Keyframes::new(params))),
+            Variant::Paper => Self::FrameToFrame(Box::new(FrameToFrame::new(params))),
+        }
+    }
+
+    fn track(&mut self, frame: Frame, stage: &mut dyn FnMut(Stage)) -> Tracking {
+        match self {
+            Self::Keyframes(odometry) => odometry.track(frame, stage),
+            Self::FrameToFrame(odometry) => odometry.track(frame, stage),
+        }
+    }
+
+    fn restart(&mut self) {
+        match self {
+            Self::Keyframes(odometry) => odometry.restart(),
+            Self::FrameToFrame(odometry) => odometry.restart(),
+        }
+    }
+}
+
+/// The newest image of a stream.
+struct Newest<P> {
+    size: (usize, usize),
+    image: Option<(Timestamp, Arc<Image<P>>)>,
+}
+
+impl<P> Newest<P> {
+    fn of_size(size: (usize, usize)) -> Self {
+        Self { size, image: None }
+    }
+
+    /// Takes the next one.
+    fn take(&mut self, time: Timestamp, image: Arc<Image<P>>) -> Result<(), Rejection> {
+        if image.size() != self.size {
+            return Err(Rejection::WrongSize { expected: self.size, found: image.size() });
+        }
+        if self.time() >= Some(time) {
+            return Err(Rejection::OutOfOrder);
+        }
+        self.image = Some((time, image));
+        Ok(())
+    }
+
+    fn time(&self) -> Option<Timestamp> {
+        self.image.as_ref().map(|(time, _)| *time)
+    }
+
+    /// The image, if it was captured together with another one.
+    fn at(&self, time: Timestamp) -> Option<(Timestamp, Arc<Image<P>>)> {
+        self.image.clone().filter(|(own, _)| own.since(time).abs() <= MAX_PAIR_GAP)
+    }
+}
+
+/// The newest images, and the pose by them.
+pub(crate) struct Vision {
+    rig: Rig,
+    by_day: FrameBuilder,
+    /// Where depth lies in the infrared image's pixels.
+    by_night: Option<NightFrameBuilder>,
+    odometry: Odometry,
+    /// What the odometry's keyframes are of.
+    mode: Mode,
+    rgb: Newest<[u8; 3]>,
+    infrared: Newest<u16>,
+    depth: Newest<u16>,
+    estimate: Estimate,
+    /// The newest instant that was worked on.
+    last: Option<Timestamp>,
+    report: Option<FrameReport>,
+    observer: StageObserver,
+}
+
+impl Vision {
+    /// Nothing seen yet.
+    pub fn new(params: &EstimatorParams, rig: &Rig, mode: Mode) -> Self {
+        Self {
+            by_day: FrameBuilder::new(params, rig),
+            by_night: NightFrameBuilder::new(params, rig),
+            odometry: Odometry::new(params),
+            mode,
+            rgb: Newest::of_size(rig.colour.size()),
+            infrared: Newest::of_size(rig.depth.model.size()),
+            depth: Newest::of_size(rig.depth.model.size()),
+            estimate: Estimate {
+                time: None,
+                odom_from_robot: Isometry3::identity(),
+                covariance: Matrix6::zeros(),
+                mode,
+                health: Health::Initialising,
+            },
+            last: None,
+            report: None,
+            observer: Box::new(|_| {}),
+            rig: rig.clone(),
+        }
+    }
+
+    /// Has `observer` called at the beginning of each stage.
+    pub fn observe_stages(&mut self, observer: StageObserver) {
+        self.observer = observer;
+    }
+
+    /// Visual odometry's own pose.
+    pub fn estimate(&self) -> &Estimate {
+        &self.estimate
+    }
+
+    /// What was made of the newest frame.
+    pub fn report(&self) -> Option<&FrameReport> {
+        self.report.as_ref()
+    }
+
+    /// Takes a colour image.
+    pub fn take_rgb(&mut self, time: Timestamp, image: Arc<RgbImage>) -> Result<(), Rejection> {
+        self.rgb.take(time, image)
+    }
+
+    /// Takes an infrared image.
+    pub fn take_infrared(&mut self, time: Timestamp, image: Arc<InfraredImage>) -> Result<(), Rejection> {
+        self.infrared.take(time, image)
+    }
+
+    /// Takes a depth image.
+    pub fn take_depth(&mut self, time: Timestamp, image: Arc<DepthImage>) -> Result<(), Rejection> {
+        self.depth.take(time, image)
+    }
+
+    /// Works on the newest instant once the images that `mode` rests on are all there: the pose, which is `tracked` if
+    /// a motion was found, and why not if not. Of a mode that rests on no image it only counts depth.
+    pub fn look(&mut self, mode: Mode) -> Option<(VisualPose, Option<MotionFailure>)> {
+        if self.mode != mode {
+            self.mode = mode;
+            self.odometry.restart();
+        }
+        let depth = self.depth.time()?;
+        match mode {
+            Mode::Indoor => {
+                let ((time, rgb), (_, depth)) = (self.rgb.at(depth)?, self.depth.at(depth)?);
+                self.is_new(time).then_some(())?;
+                let frame = self.by_day.build(&rgb, &depth, &mut self.observer);
+                Some(self.follow(time, frame, &depth))
+            }
+            Mode::Night if self.by_night.is_some() => {
+                let ((time, infrared), (_, depth)) = (self.infrared.at(depth)?, self.depth.at(depth)?);
+                self.is_new(time).then_some(())?;
+                let frame = self.by_night.as_mut()?.build(&infrared, &depth, &mut self.observer);
+                let followed = self.follow(time, frame, &depth);
+                // Images of one and the same view would teach the view instead of the dots.
+                if let Some(by_night) = self.by_night.as_mut().filter(|_| followed.0.keyframe) {
+                    by_night.learn();
+                }
+                Some(followed)
+            }
+            _ => {
+                let (time, depth) = self.depth.at(depth)?;
+                if self.is_new(time) {
+                    self.estimate.health = Health::Lost(MotionFailure::NotSought);
+                    self.put_down(time, 0, &depth, Tracking::none());
+                }
+                None
+            }
+        }
+    }
+
+    fn is_new(&self, time: Timestamp) -> bool {
+        self.last < Some(time)
+    }
+
+    fn follow(&mut self, time: Timestamp, frame: Frame, depth: &DepthImage) -> (VisualPose, Option<MotionFailure>) {
+        let features = frame.features.len();
+        let tracking = self.odometry.track(frame, &mut self.observer);
+        (self.observer)(Stage::Done);
+        let robot_from_camera = self.rig.robot_from_colour;
+        let carry = adjoint(&robot_from_camera);
+        let (pose, failure, keyframe) = (&tracking.pose, tracking.failure, tracking.keyframe);
+        self.estimate = Estimate {
+            time: Some(time),
+            odom_from_robot: robot_from_camera * pose.start_from_camera * robot_from_camera.inverse(),
+            covariance: carry * pose.covariance * carry.transpose(),
+            mode: self.mode,
+            health: failure.map_or(Health::Good, Health::Lost),
+        };
+        self.put_down(time, features, depth, tracking);
+        let Estimate { odom_from_robot: start_from_robot, covariance, .. } = self.estimate;
+        let tracked = failure.is_none();
+        (VisualPose { time, start_from_robot, covariance, tracked, keyframe, doubt: 1.0 }, failure)
+    }
+
+    fn put_down(&mut self, time: Timestamp, features: usize, depth: &DepthImage, tracking: Tracking) {
+        let Tracking { tracks, keyframe, .. } = tracking;
+        let valid = depth.pixels().iter().filter(|&&value| self.rig.depth.depth_of(value).is_some()).count();
+        self.last = Some(time);
+        self.report = Some(FrameReport {
+            time,
+            features,
+            matches: tracks.len(),
+            inliers: tracks.iter().filter(|track| track.inlier).count(),
+            keyframe,
+            depth_valid_share: valid as f64 / depth.pixels().len() as f64,
+            tracks,
+        });
+    }
+}
