@@ -26,11 +26,13 @@ const READ_NOISE: f64 = 24.0;
 /// Spread of a raw depth value about its exact one, before it is rounded.
 const RAW_NOISE: f64 = 0.4;
 
-/// A plane n·p = d in the world, textured.
+/// A plane n·p = d in the world.
 #[derive(Clone, Copy)]
 pub struct Wall {
     pub normal: Vector3<f64>,
     pub distance: f64,
+    /// Otherwise it is grey all over.
+    pub is_textured: bool,
 }
 
 pub struct DarkRoom {
@@ -98,6 +100,9 @@ impl DarkRoom {
         });
         let (z, number, facing) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let wall = &self.walls[number];
+        if !wall.is_textured {
+            return Some((z, 0.4, facing));
+        }
         // Two directions along the wall.
         let across = wall.normal.cross(&Vector3::new(0.3, 0.5, 0.8)).normalize();
         let along = wall.normal.cross(&across);

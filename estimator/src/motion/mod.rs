@@ -1,6 +1,8 @@
 //! Rigid motion from matched 3D points: `rigid` (closed form, paper A Eq. 4) inside `ransac`, then either the
-//! paper's reject-and-refit (`paper`) or least squares weighted by the points' uncertainty (`refine`).
+//! paper's reject-and-refit (`paper`) or least squares weighted by the points' uncertainty (`refine`); or from all pixels
+//! of two views (`dense`).
 
+mod dense;
 mod paper;
 mod ransac;
 mod refine;
@@ -11,6 +13,7 @@ use thiserror::Error;
 
 use crate::structure::Landmark;
 
+pub use dense::{DenseMotion, align, misfit};
 pub use paper::{PaperMotionParams, icp_surf};
 pub use ransac::{RansacParams, ransac};
 pub use refine::{RefineParams, refine};

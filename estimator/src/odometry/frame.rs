@@ -1,11 +1,13 @@
 //! One instant: features that have a 3D point.
 
+use nalgebra::Isometry3;
+
 use crate::camera::Rig;
 use crate::estimator::Stage;
 use crate::features::surf::{Feature, Surf};
 use crate::image::{DepthImage, RgbImage};
 use crate::params::{EstimatorParams, Variant};
-use crate::structure::{DepthNoise, Landmark, Registration, depth_at, lift};
+use crate::structure::{DenseView, DepthNoise, Landmark, Registration, depth_at, lift};
 
 /// Features with depth, strongest first; `landmarks[i]` belongs to `features[i]`.
 #[derive(Clone, Debug)]
@@ -14,6 +16,17 @@ pub struct Frame {
     pub features: Vec<Feature>,
     /// In the colour camera's frame.
     pub landmarks: Vec<Landmark>,
+    /// All pixels, where they are to help.
+    pub view: Option<FrameView>,
+}
+
+/// A view, and where its camera sits.
+#[derive(Clone, Debug)]
+pub struct FrameView {
+    /// Shade and depth.
+    pub view: DenseView,
+    /// Points in its camera's frame → the colour camera's.
+    pub colour_from_camera: Isometry3<f64>,
 }
 
 /// The paper's own variant uses no depth beyond 2.4 m; ours weighs it by its uncertainty.
@@ -55,6 +68,6 @@ impl FrameBuilder {
                 Some((feature, landmark))
             })
             .unzip();
-        Frame { features, landmarks }
+        Frame { features, landmarks, view: None }
     }
 }

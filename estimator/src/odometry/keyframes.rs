@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::estimator::Stage;
 use crate::features::matching::match_features;
 use crate::geometry::adjoint;
-use crate::motion::{MotionFailure, Pair, ransac, refine};
+use crate::motion::{Motion, MotionFailure, Pair, align, misfit, ransac, refine};
 use crate::params::EstimatorParams;
 
 use super::{CameraPose, FeatureTrack, Frame, Tracking};
@@ -53,6 +53,16 @@ impl Default for KeyframeParams {
     }
 }
 
+/// Least share of a keyframe's pixels that must be seen in a frame, or that becomes a keyframe itself. A guess.
+const LEAST_OVERLAP: f64 = 0.6;
+
+/// A motion by all pixels, in the start frame.
+struct ByAllPixels {
+    motion: Motion,
+    flow: f64,
+    overlap: f64,
+}
+
 struct Keyframe {
     pose: CameraPose,
     frame: Frame,
@@ -67,6 +77,8 @@ pub struct Keyframes {
     started: bool,
     /// The pose of the last frame, its covariance grown by the frames lost since.
     last: CameraPose,
+    /// From the frame before the last to the last one.
+    step: Isometry3<f64>,
     lost_frames: usize,
 }
 
@@ -74,7 +86,7 @@ impl Keyframes {
     /// Nothing seen yet.
     pub fn new(params: &EstimatorParams) -> Self {
         let (window, last) = (VecDeque::new(), CameraPose::start());
-        Self { params: params.clone(), window, started: false, last, lost_frames: 0 }
+        Self { params: params.clone(), window, started: false, last, step: Isometry3::identity(), lost_frames: 0 }
     }
 
     /// Gives the keyframes up: what comes next shows other images, or another place.
@@ -100,11 +112,16 @@ impl Keyframes {
         stage(Stage::Matching);
         let (pairs, mut tracks) = self.pairs(&frame);
         stage(Stage::Motion);
-        let motion =
+        let sparse =
             ransac(&pairs, &self.params.ransac).and_then(|start| refine(&pairs, &start, needed, &self.params.refine));
-        let motion = match motion {
-            Ok(motion) => motion,
-            Err(failure) => return self.lose(frame, failure, tracks),
+        let dense = self.by_all_pixels(&frame, sparse.as_ref().ok());
+        let motion = match (sparse, &dense) {
+            (Ok(sparse), None) => sparse,
+            (sparse, Some(dense)) => {
+                let inliers = sparse.map_or_else(|_| vec![false; pairs.len()], |sparse| sparse.inliers);
+                Motion { inliers, ..dense.motion.clone() }
+            }
+            (Err(failure), None) => return self.lose(frame, failure, tracks),
         };
         for (track, &inlier) in tracks.iter_mut().zip(&motion.inliers) {
             track.inlier = inlier;
@@ -116,16 +133,47 @@ impl Keyframes {
             median_depth(&frame),
             self.params.keyframes.systematic_share,
         );
-        self.last = CameraPose {
-            start_from_camera: motion.reference_from_camera,
-            covariance: newest.pose.covariance + motion.covariance + systematic,
-        };
+        let before = std::mem::replace(
+            &mut self.last,
+            CameraPose {
+                start_from_camera: motion.reference_from_camera,
+                covariance: newest.pose.covariance + motion.covariance + systematic,
+            },
+        );
+        self.step = before.start_from_camera.inverse() * self.last.start_from_camera;
         self.lost_frames = 0;
-        let keyframe = self.has_moved_on(&tracks, found);
+        let keyframe = match dense {
+            Some(dense) => dense.flow > self.params.keyframes.max_flow || dense.overlap < LEAST_OVERLAP,
+            None => self.has_moved_on(&tracks, found),
+        };
         if keyframe {
             self.remember(frame);
         }
         Tracking { pose: self.last.clone(), failure: None, tracks, keyframe }
+    }
+
+    /// Against the newest keyframe by all pixels, where both frames have them; from the motion by features or from what
+    /// goes on as before, whichever explains the pixels better.
+    fn by_all_pixels(&self, frame: &Frame, sparse: Option<&Motion>) -> Option<ByAllPixels> {
+        let newest = self.window.back()?;
+        let (reference, view) = (newest.frame.view.as_ref()?, frame.view.as_ref()?);
+        let start_from_keyframe = newest.pose.start_from_camera * reference.colour_from_camera;
+        let camera_from_colour = view.colour_from_camera.inverse();
+        let relative =
+            |start_from_camera: &Isometry3<f64>| camera_from_colour * start_from_camera.inverse() * start_from_keyframe;
+        let as_before = relative(&(self.last.start_from_camera * self.step));
+        let by_features = sparse.map(|sparse| relative(&sparse.reference_from_camera));
+        let cost = |motion: &Isometry3<f64>| misfit(&reference.view, &view.view, motion);
+        let start = by_features.filter(|found| cost(found) <= cost(&as_before)).unwrap_or(as_before);
+        let found = align(&reference.view, &view.view, &start, self.params.refine.max_weakest_sigma).ok()?;
+        let start_from_view = start_from_keyframe * found.camera_from_reference.inverse();
+        let carry = adjoint(&start_from_view);
+        let motion = Motion {
+            reference_from_camera: start_from_view * camera_from_colour,
+            covariance: carry * found.covariance * carry.transpose(),
+            inliers: Vec::new(),
+        };
+        Some(ByAllPixels { motion, flow: found.flow, overlap: found.overlap })
     }
 
     /// Pairs with every keyframe, the newest first, and the tracks to the newest; references in the start frame.
@@ -173,6 +221,7 @@ impl Keyframes {
     fn lose(&mut self, frame: Frame, failure: MotionFailure, tracks: Vec<FeatureTrack>) -> Tracking {
         let params = &self.params.keyframes;
         self.lost_frames += 1;
+        self.step = Isometry3::identity();
         let (translation, rotation) = (params.lost_translation, params.lost_rotation);
         let growth = Vector6::new(translation, translation, translation, rotation, rotation, rotation);
         // The perturbation acts at the camera; seen from the start frame its rotation swings the camera's position.
@@ -268,12 +317,12 @@ mod tests {
                 });
                 landmarks.push(Landmark { position, covariance });
             }
-            Frame { features, landmarks }
+            Frame { features, landmarks, view: None }
         }
     }
 
     fn nothing_seen() -> Frame {
-        Frame { features: Vec::new(), landmarks: Vec::new() }
+        Frame { features: Vec::new(), landmarks: Vec::new(), view: None }
     }
 
     fn error(tracking: &Tracking, truth: &Isometry3<f64>) -> Vector6<f64> {

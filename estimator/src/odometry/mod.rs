@@ -13,7 +13,7 @@ use crate::features::surf::Feature;
 use crate::motion::MotionFailure;
 use crate::time::Timestamp;
 
-pub use frame::{Frame, FrameBuilder};
+pub use frame::{Frame, FrameBuilder, FrameView};
 pub use frame_to_frame::FrameToFrame;
 pub use keyframes::{KeyframeParams, Keyframes};
 pub use night::NightFrameBuilder;

@@ -5,9 +5,9 @@ use crate::estimator::Stage;
 use crate::features::surf::Surf;
 use crate::image::{DepthImage, InfraredImage};
 use crate::params::EstimatorParams;
-use crate::structure::{AlbedoCamera, DepthNoise, depth_at, lift};
+use crate::structure::{AlbedoCamera, DepthNoise, ViewMaker, depth_at, lift};
 
-use super::{Frame, depth_noise};
+use super::{Frame, FrameView, depth_noise};
 
 /// Least scale of a feature, pixels. Smaller ones lie on what is left of single dots, which are fixed to the sensor.
 const MIN_SCALE: f32 = 2.8;
@@ -15,6 +15,7 @@ const MIN_SCALE: f32 = 2.8;
 /// Makes frames of infrared and depth images.
 pub struct NightFrameBuilder {
     camera: AlbedoCamera,
+    views: ViewMaker,
     surf: Surf,
     noise: DepthNoise,
     rig: Rig,
@@ -24,7 +25,8 @@ impl NightFrameBuilder {
     /// For one rig; `None` where depth does not lie in the infrared image's pixels.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Option<Self> {
         let camera = (!rig.depth.registered_to_colour).then(|| AlbedoCamera::new(&rig.depth))?;
-        Some(Self { camera, surf: Surf::new(params.surf), noise: depth_noise(params), rig: rig.clone() })
+        let (views, surf) = (ViewMaker::new(&rig.depth.model), Surf::new(params.surf));
+        Some(Self { camera, views, surf, noise: depth_noise(params), rig: rig.clone() })
     }
 
     /// The albedo, SURF on it, and the lift to 3D.
@@ -43,7 +45,9 @@ impl NightFrameBuilder {
                 Some((feature, landmark.moved(&self.rig.colour_from_depth)))
             })
             .unzip();
-        Frame { features, landmarks }
+        let view = self.views.view(&albedo.levels, &albedo.depth);
+        let view = Some(FrameView { view, colour_from_camera: self.rig.colour_from_depth });
+        Frame { features, landmarks, view }
     }
 
     /// Learns the projector's dots from the image of the last frame. To be called once the view has changed.

@@ -46,6 +46,8 @@ pub struct AlbedoCamera {
 pub struct Albedo {
     /// Logarithm of the albedo, 50 grey levels for each factor of e about the image's median, 128.
     pub image: GrayImage,
+    /// The same, not rounded; 0 = unknown.
+    pub levels: Image<f32>,
     /// Z of each pixel, metres; 0 = no value.
     pub depth: Image<f32>,
 }
@@ -88,8 +90,12 @@ impl AlbedoCamera {
         }
         let albedo = ratio(&blur(&self.light, NARROW.0, NARROW.1), &blur(&expected, NARROW.0, NARROW.1));
         let metres = depth.pixels().iter().map(|&value| self.metres[usize::from(value)]).collect();
+        let levels = self.to_levels(&albedo);
+        let rounded =
+            levels.pixels().iter().map(|&level| if level > 0.0 { level.round() as u8 } else { 128 }).collect();
         Albedo {
-            image: self.to_levels(&albedo),
+            image: Image::from_pixels(width, height, rounded).expect("same size in and out"),
+            levels,
             depth: Image::from_pixels(width, height, metres).expect("same size in and out"),
         }
     }
@@ -151,18 +157,14 @@ impl AlbedoCamera {
         Cells { columns, rows, values: moments.into_iter().map(slope).collect() }
     }
 
-    fn to_levels(&self, albedo: &Image<f32>) -> GrayImage {
+    fn to_levels(&self, albedo: &Image<f32>) -> Image<f32> {
         let mut known: Vec<f32> = albedo.pixels().iter().copied().filter(|value| *value > 0.0).step_by(7).collect();
         let middle = known.len() / 2;
         let median = if known.is_empty() { 1.0 } else { *known.select_nth_unstable_by(middle, f32::total_cmp).1 };
         let level = |(&narrow, &wide): (&f32, &f32)| {
             // At the rim of what is known, the wide mean has to do.
             let value = if narrow > 0.0 { narrow } else { wide };
-            if value > 0.0 {
-                (128.0 + LEVELS_PER_E * ((value + DARK) / (median + DARK)).ln()).round() as u8
-            } else {
-                128
-            }
+            if value > 0.0 { (128.0 + LEVELS_PER_E * ((value + DARK) / (median + DARK)).ln()).max(1.0) } else { 0.0 }
         };
         let pixels = albedo.pixels().iter().zip(self.wide.pixels()).map(level).collect();
         Image::from_pixels(albedo.width(), albedo.height(), pixels).expect("same size in and out")

@@ -6,7 +6,9 @@ mod blur;
 mod lift;
 mod pattern;
 mod register;
+mod view;
 
 pub use albedo::{Albedo, AlbedoCamera};
 pub use lift::{DepthNoise, Landmark, MAX_WINDOW, depth_at, lift};
 pub use register::{RegisteredDepth, Registration};
+pub use view::{DenseView, PIXELS, ViewMaker};

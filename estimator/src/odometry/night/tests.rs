@@ -29,7 +29,7 @@ fn a_metre_along_a_flat_wall_is_a_metre() {
     let normal = Vector3::new(0.1, 0.0, 1.0).normalize();
     // By the projector alone, and under a sodium lamp.
     for ambient in [0.0, 0.1] {
-        let room = DarkRoom { walls: vec![Wall { normal, distance: 2.5 }], ambient };
+        let room = DarkRoom { walls: vec![Wall { normal, distance: 2.5, is_textured: true }], ambient };
         for way in [Vector3::x(), Vector3::z()] {
             let (length, lost) = followed(&room, way, 40);
             assert!(

@@ -6,7 +6,7 @@ use crate::dark_room::{self, DarkRoom, HEIGHT, Seen, WIDTH, Wall};
 /// A wall two metres ahead, slightly aslant.
 fn room(ambient: f64) -> DarkRoom {
     let normal = Vector3::new(0.1, 0.0, 1.0).normalize();
-    DarkRoom { walls: vec![Wall { normal, distance: 2.0 }], ambient }
+    DarkRoom { walls: vec![Wall { normal, distance: 2.0, is_textured: true }], ambient }
 }
 
 fn beside(metres: f64) -> Isometry3<f64> {
