@@ -171,7 +171,11 @@ impl Localizer for Estimator {
             },
             MeasurementData::WheelTicks { left, right } => {
                 self.modes.pass(time);
-                disposition(self.fusion.as_mut().map(|fusion| fusion.handle_ticks(time, left, right)))
+                let taken = self.fusion.as_mut().map(|fusion| fusion.handle_ticks(time, left, right));
+                if let (Some(Ok(())), Some(fusion)) = (&taken, &self.fusion) {
+                    self.vision.take_wheels(time, fusion.odometry().pose);
+                }
+                disposition(taken)
             }
             MeasurementData::Gyro(rate) => {
                 disposition(self.fusion.as_mut().map(|fusion| fusion.handle_gyro(time, rate.z)))
@@ -304,11 +308,11 @@ mod tests {
                 began.get_or_insert(frame);
             }
         }
-        // The dwell is a second; odometry begins with the first frame that it can see anything in.
+        // The dwell is a second; the first frame of the new kind has none to be held against.
         let began = began.unwrap();
         assert!((16..20).contains(&began), "{began}");
         let gone = estimator.estimate().odom_from_robot.translation.vector;
-        let expected = Vector3::x() * (0.02 * f64::from(39 - began));
+        let expected = Vector3::x() * (0.02 * f64::from(40 - began));
         assert!((gone - expected).norm() < 0.01, "{gone} instead of {expected}");
     }
 

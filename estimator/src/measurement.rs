@@ -101,7 +101,7 @@ pub struct Streams {
 pub enum Mode {
     /// RGB + depth.
     Indoor,
-    /// RGB + infrared stereo.
+    /// RGB + infrared in the paper; here RGB, whose views are apart by a way that the wheels know.
     Outdoor,
     /// Infrared + depth.
     Night,

@@ -21,7 +21,7 @@ pub struct EstimatorParams {
     /// Which of the four poses is the estimate on a robot with wheels; without wheels it is `mvo`.
     pub pose_from: PoseSource,
     /// Which sensors the pose rests on: `auto` goes by what the images hold; `indoor` (colour + depth), `night`
-    /// (infrared + depth) or `wheels` is so whatever they hold.
+    /// (infrared + depth), `outdoor` (colour, with the wheels' length) or `wheels` is so whatever they hold.
     pub mode: ModeChoice,
     /// How the images' energies become a mode, where that is `auto`.
     pub switch: SwitchParams,

@@ -1,22 +1,30 @@
 //! Visual odometry from whichever images the mode rests on.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix6};
 
 use crate::camera::Rig;
 use crate::estimator::{Stage, StageObserver};
-use crate::fusion::VisualPose;
+use crate::fusion::{PlanarPose, VisualPose};
 use crate::geometry::adjoint;
 use crate::image::{DepthImage, Image, InfraredImage, RgbImage};
 use crate::measurement::{Estimate, Health, Mode, Rejection};
 use crate::motion::MotionFailure;
-use crate::odometry::{Frame, FrameBuilder, FrameReport, FrameToFrame, Keyframes, NightFrameBuilder, Tracking};
+use crate::odometry::{
+    ByBearing, CameraPose, Frame, FrameBuilder, FrameReport, FrameToFrame, Keyframes, NightFrameBuilder, Tracking,
+};
 use crate::params::{EstimatorParams, Variant};
 use crate::time::Timestamp;
 
 /// Images further apart than this are not of one frame: half a period at 30 Hz, rounded up. Seconds.
 const MAX_PAIR_GAP: f64 = 0.02;
+
+/// So long is remembered what the wheels said, seconds: longer than an image takes.
+const WHEELS_KEPT: f64 = 1.0;
+/// An image may be so much newer than the wheels, seconds.
+const MAX_EXTRAPOLATION: f64 = 0.15;
 
 enum Odometry {
     Keyframes(Box<Keyframes>),
@@ -38,10 +46,10 @@ impl Odometry {
         }
     }
 
-    fn restart(&mut self) {
+    fn restart(&mut self, pose: CameraPose) {
         match self {
-            Self::Keyframes(odometry) => odometry.restart(),
-            Self::FrameToFrame(odometry) => odometry.restart(),
+            Self::Keyframes(odometry) => odometry.restart(pose),
+            Self::FrameToFrame(odometry) => odometry.restart(pose),
         }
     }
 }
@@ -85,7 +93,12 @@ pub(crate) struct Vision {
     by_day: FrameBuilder,
     /// Where depth lies in the infrared image's pixels.
     by_night: Option<NightFrameBuilder>,
+    by_bearing: ByBearing,
     odometry: Odometry,
+    /// The camera's newest pose, of whichever odometry.
+    pose: CameraPose,
+    /// What the wheels have said lately.
+    wheels: VecDeque<(Timestamp, PlanarPose)>,
     /// What the odometry's keyframes are of.
     mode: Mode,
     rgb: Newest<[u8; 3]>,
@@ -104,7 +117,10 @@ impl Vision {
         Self {
             by_day: FrameBuilder::new(params, rig),
             by_night: NightFrameBuilder::new(params, rig),
+            by_bearing: ByBearing::new(params, &rig.colour),
             odometry: Odometry::new(params),
+            pose: CameraPose::start(),
+            wheels: VecDeque::new(),
             mode,
             rgb: Newest::of_size(rig.colour.size()),
             infrared: Newest::of_size(rig.depth.model.size()),
@@ -153,12 +169,35 @@ impl Vision {
         self.depth.take(time, image)
     }
 
+    /// Takes where the wheels alone say that the robot is.
+    pub fn take_wheels(&mut self, time: Timestamp, odom_from_robot: PlanarPose) {
+        self.wheels.push_back((time, odom_from_robot));
+        while self.wheels.front().is_some_and(|(old, _)| time.since(*old) > WHEELS_KEPT) {
+            self.wheels.pop_front();
+        }
+    }
+
+    /// Where the wheels say that the colour camera was at an instant, going on as before for a little while.
+    fn camera_by_wheels(&self, time: Timestamp) -> Option<Isometry3<f64>> {
+        let after = self.wheels.partition_point(|(read, _)| *read < time).clamp(1, self.wheels.len().max(2) - 1);
+        let ((from, start), (to, end)) = (self.wheels.get(after - 1)?, self.wheels.get(after)?);
+        let share = time.since(*from) / to.since(*from);
+        let step = (start.inverse() * *end).to_vector() * share;
+        let is_near = time.since(*to) < MAX_EXTRAPOLATION && share > -1.0;
+        let odom_from_robot = *start * PlanarPose::new(step.x, step.y, step.z);
+        is_near.then(|| odom_from_robot.to_isometry() * self.rig.robot_from_colour)
+    }
+
     /// Works on the newest instant once the images that `mode` rests on are all there: the pose, which is `tracked` if
     /// a motion was found, and why not if not. Of a mode that rests on no image it only counts depth.
     pub fn look(&mut self, mode: Mode) -> Option<(VisualPose, Option<MotionFailure>)> {
         if self.mode != mode {
             self.mode = mode;
-            self.odometry.restart();
+            self.odometry.restart(self.pose.clone());
+            self.by_bearing.restart(self.pose.clone());
+        }
+        if mode == Mode::Outdoor && !self.wheels.is_empty() {
+            return self.look_at_bearings();
         }
         let depth = self.depth.time()?;
         match mode {
@@ -166,13 +205,13 @@ impl Vision {
                 let ((time, rgb), (_, depth)) = (self.rgb.at(depth)?, self.depth.at(depth)?);
                 self.is_new(time).then_some(())?;
                 let frame = self.by_day.build(&rgb, &depth, &mut self.observer);
-                Some(self.follow(time, frame, &depth))
+                Some(self.follow(time, frame))
             }
             Mode::Night if self.by_night.is_some() => {
                 let ((time, infrared), (_, depth)) = (self.infrared.at(depth)?, self.depth.at(depth)?);
                 self.is_new(time).then_some(())?;
                 let frame = self.by_night.as_mut()?.build(&infrared, &depth, &mut self.observer);
-                let followed = self.follow(time, frame, &depth);
+                let followed = self.follow(time, frame);
                 // Images of one and the same view would teach the view instead of the dots.
                 if let Some(by_night) = self.by_night.as_mut().filter(|_| followed.0.keyframe) {
                     by_night.learn();
@@ -180,10 +219,10 @@ impl Vision {
                 Some(followed)
             }
             _ => {
-                let (time, depth) = self.depth.at(depth)?;
+                let time = depth;
                 if self.is_new(time) {
                     self.estimate.health = Health::Lost(MotionFailure::NotSought);
-                    self.put_down(time, 0, &depth, Tracking::none());
+                    self.put_down(time, 0, Tracking::none());
                 }
                 None
             }
@@ -194,10 +233,28 @@ impl Vision {
         self.last < Some(time)
     }
 
-    fn follow(&mut self, time: Timestamp, frame: Frame, depth: &DepthImage) -> (VisualPose, Option<MotionFailure>) {
+    /// The direction from colour, the length from the wheels.
+    fn look_at_bearings(&mut self) -> Option<(VisualPose, Option<MotionFailure>)> {
+        let (time, rgb) = self.rgb.image.clone().filter(|(time, _)| self.is_new(*time))?;
+        let odom_from_camera = self.camera_by_wheels(time)?;
+        let tracked = self.by_bearing.track(&rgb, &odom_from_camera, &mut self.observer);
+        (self.observer)(Stage::Done);
+        let Some((features, tracking)) = tracked else {
+            self.put_down(time, 0, Tracking::none());
+            return None;
+        };
+        Some(self.found(time, features, tracking))
+    }
+
+    fn follow(&mut self, time: Timestamp, frame: Frame) -> (VisualPose, Option<MotionFailure>) {
         let features = frame.features.len();
         let tracking = self.odometry.track(frame, &mut self.observer);
         (self.observer)(Stage::Done);
+        self.found(time, features, tracking)
+    }
+
+    fn found(&mut self, time: Timestamp, features: usize, tracking: Tracking) -> (VisualPose, Option<MotionFailure>) {
+        self.pose = tracking.pose.clone();
         let robot_from_camera = self.rig.robot_from_colour;
         let carry = adjoint(&robot_from_camera);
         let (pose, failure, keyframe) = (&tracking.pose, tracking.failure, tracking.keyframe);
@@ -208,15 +265,16 @@ impl Vision {
             mode: self.mode,
             health: failure.map_or(Health::Good, Health::Lost),
         };
-        self.put_down(time, features, depth, tracking);
+        self.put_down(time, features, tracking);
         let Estimate { odom_from_robot: start_from_robot, covariance, .. } = self.estimate;
         let tracked = failure.is_none();
         (VisualPose { time, start_from_robot, covariance, tracked, keyframe, doubt: 1.0 }, failure)
     }
 
-    fn put_down(&mut self, time: Timestamp, features: usize, depth: &DepthImage, tracking: Tracking) {
+    fn put_down(&mut self, time: Timestamp, features: usize, tracking: Tracking) {
         let Tracking { tracks, keyframe, .. } = tracking;
-        let valid = depth.pixels().iter().filter(|&&value| self.rig.depth.depth_of(value).is_some()).count();
+        let depth = self.depth.image.as_ref().map_or(&[][..], |(_, depth)| depth.pixels());
+        let valid = depth.iter().filter(|&&value| self.rig.depth.depth_of(value).is_some()).count();
         self.last = Some(time);
         self.report = Some(FrameReport {
             time,
@@ -224,7 +282,7 @@ impl Vision {
             matches: tracks.len(),
             inliers: tracks.iter().filter(|track| track.inlier).count(),
             keyframe,
-            depth_valid_share: valid as f64 / depth.pixels().len() as f64,
+            depth_valid_share: valid as f64 / depth.len().max(1) as f64,
             tracks,
         });
     }

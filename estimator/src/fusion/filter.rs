@@ -112,7 +112,7 @@ impl<G: Gain> PoseFilter<G> {
             noise: measured.covariance,
         };
         let repeats = self.surprise.is_none_or(|last| seen.agrees_with(&last));
-        let outcome = self.correct(&mut seen, repeats, G::for_pose);
+        let outcome = self.correct(&mut seen, Some(repeats), G::for_pose);
         self.surprise = (!self.gate.is_calm()).then_some(seen.error);
         if outcome == Outcome::Fused {
             self.pose_posterior = measured.pose.minus(&self.estimate.pose);
@@ -131,7 +131,7 @@ impl<G: Gain> PoseFilter<G> {
             noise: sighting.covariance,
         };
         // Sightings of different landmarks can't be compared.
-        let outcome = self.correct(&mut seen, true, G::for_landmark);
+        let outcome = self.correct(&mut seen, None, G::for_landmark);
         if outcome == Outcome::Fused {
             self.landmark_posterior = landmark_error(sighting, landmark, &self.estimate.pose);
         }
@@ -149,7 +149,7 @@ impl<G: Gain> PoseFilter<G> {
     fn correct<const M: usize>(
         &mut self,
         seen: &mut Innovation<M>,
-        repeats: bool,
+        repeats: Option<bool>,
         gain: impl Fn(&G, &Innovation<M>) -> Option<SMatrix<f64, 3, M>>,
     ) -> Outcome {
         let Some(squared) = seen.mahalanobis_squared().filter(|squared| squared.is_finite()) else {

@@ -59,18 +59,21 @@ impl Gate {
     }
 
     /// Judges an innovation by its squared Mahalanobis distance; `repeats`: whether it says what the last one that was
-    /// refused said.
-    pub fn judge(&mut self, squared: f64, repeats: bool) -> Verdict {
+    /// refused said, `None` where the two can't be compared.
+    pub fn judge(&mut self, squared: f64, repeats: Option<bool>) -> Verdict {
         if !self.params.enabled || squared <= self.params.limit {
             self.refusals = 0;
             return Verdict::Admit;
         }
-        if !repeats {
+        if repeats == Some(false) {
             self.refusals = 0;
         }
         if self.refusals < self.params.max_refusals {
             self.refusals += 1;
             return Verdict::Refuse;
+        }
+        if repeats.is_none() {
+            self.refusals = 0;
         }
         // Scaled by the distance's excess, a covariance that makes up most of the innovation's just fits.
         Verdict::AdmitDoubting(squared / self.params.limit)
@@ -84,12 +87,12 @@ mod tests {
     #[test]
     fn a_gate_keeps_out_and_lets_back_in() {
         let mut gate = Gate::new(GateParams { enabled: true, limit: 9.0, max_refusals: 2 });
-        let verdicts = [4.0, 20.0, 5.0, 20.0, 30.0, 18.0, 20.0].map(|squared| gate.judge(squared, true));
+        let verdicts = [4.0, 20.0, 5.0, 20.0, 30.0, 18.0, 20.0].map(|squared| gate.judge(squared, Some(true)));
         use Verdict::{Admit, AdmitDoubting, Refuse};
         assert_eq!(verdicts, [Admit, Refuse, Admit, Refuse, Refuse, AdmitDoubting(2.0), AdmitDoubting(20.0 / 9.0)]);
         let mut open = Gate::new(GateParams::open());
-        assert_eq!(open.judge(1e9, true), Admit);
+        assert_eq!(open.judge(1e9, None), Admit);
         // Wrong in another way each time, for ever.
-        assert!((0..9).all(|_| gate.judge(20.0, false) == Refuse));
+        assert!((0..9).all(|_| gate.judge(20.0, Some(false)) == Refuse));
     }
 }

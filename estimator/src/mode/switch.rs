@@ -22,6 +22,8 @@ pub enum ModeChoice {
     Indoor,
     /// Always infrared + depth.
     Night,
+    /// Always colour alone, its length by the wheels.
+    Outdoor,
     /// Never an image.
     Wheels,
 }
@@ -151,6 +153,7 @@ impl ModeSwitch {
         let mode = match choice {
             ModeChoice::Auto | ModeChoice::Indoor => Mode::Indoor,
             ModeChoice::Night => Mode::Night,
+            ModeChoice::Outdoor => Mode::Outdoor,
             ModeChoice::Wheels => Mode::Odometer,
         };
         let (started, now, pending) = (None, None, None);
@@ -175,6 +178,7 @@ impl ModeSwitch {
             ModeChoice::Auto => self.video.wanted(),
             ModeChoice::Indoor => Streams { rgb: true, infrared: false, depth: true },
             ModeChoice::Night => Streams { rgb: false, infrared: true, depth: true },
+            ModeChoice::Outdoor => Streams { rgb: true, infrared: false, depth: false },
             ModeChoice::Wheels => Streams { rgb: false, infrared: false, depth: false },
         }
     }

@@ -1,8 +1,9 @@
 //! Rigid motion from matched 3D points: `rigid` (closed form, paper A Eq. 4) inside `ransac`, then either the
 //! paper's reject-and-refit (`paper`) or least squares weighted by the points' uncertainty (`refine`); or from all pixels
-//! of two views (`dense`).
+//! of two views (`dense`); or, without depth, from rays alone (`epipolar`).
 
 mod dense;
+mod epipolar;
 mod paper;
 mod ransac;
 mod refine;
@@ -14,6 +15,7 @@ use thiserror::Error;
 use crate::structure::Landmark;
 
 pub use dense::{DenseMotion, align, misfit};
+pub use epipolar::{EpipolarMotion, RayPair, epipolar_motion};
 pub use paper::{PaperMotionParams, icp_surf};
 pub use ransac::{RansacParams, ransac};
 pub use refine::{RefineParams, refine};

@@ -23,8 +23,9 @@ impl FrameToFrame {
         Self { params: params.clone(), last: None, started: false, pose: CameraPose::start() }
     }
 
-    /// Gives the last frame up: what comes next shows other images, or another place.
-    pub fn restart(&mut self) {
+    /// Gives the last frame up: what comes next shows other images, or another place, and is seen from `pose`.
+    pub fn restart(&mut self, pose: CameraPose) {
+        (self.pose, self.started) = (pose, true);
         self.last = None;
     }
 

@@ -89,8 +89,9 @@ impl Keyframes {
         Self { params: params.clone(), window, started: false, last, step: Isometry3::identity(), lost_frames: 0 }
     }
 
-    /// Gives the keyframes up: what comes next shows other images, or another place.
-    pub fn restart(&mut self) {
+    /// Gives the keyframes up: what comes next shows other images, or another place, and is seen from `pose`.
+    pub fn restart(&mut self, pose: CameraPose) {
+        (self.last, self.started) = (pose, true);
         self.window.clear();
         self.lost_frames = 0;
     }

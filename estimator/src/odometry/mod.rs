@@ -1,7 +1,8 @@
 //! Visual odometry (paper A, §4): features with 3D points from colour and depth (`frame`) or infrared and depth
 //! (`night`), then motion against a window of keyframes (`keyframes`) or, as the paper has it, against the frame before
-//! (`frame_to_frame`).
+//! (`frame_to_frame`). Where there is no depth: the direction from colour, the length from the wheels (`by_bearing`).
 
+mod by_bearing;
 mod frame;
 mod frame_to_frame;
 mod keyframes;
@@ -13,6 +14,7 @@ use crate::features::surf::Feature;
 use crate::motion::MotionFailure;
 use crate::time::Timestamp;
 
+pub use by_bearing::ByBearing;
 pub use frame::{Frame, FrameBuilder, FrameView};
 pub use frame_to_frame::FrameToFrame;
 pub use keyframes::{KeyframeParams, Keyframes};

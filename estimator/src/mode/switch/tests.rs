@@ -178,9 +178,12 @@ fn between_indoor_and_night_the_centroid_says_outdoor() {
 
 #[test]
 fn a_chosen_mode_stays() {
-    for (choice, mode) in
-        [(ModeChoice::Indoor, Mode::Indoor), (ModeChoice::Night, Mode::Night), (ModeChoice::Wheels, Mode::Odometer)]
-    {
+    for (choice, mode) in [
+        (ModeChoice::Indoor, Mode::Indoor),
+        (ModeChoice::Night, Mode::Night),
+        (ModeChoice::Outdoor, Mode::Outdoor),
+        (ModeChoice::Wheels, Mode::Odometer),
+    ] {
         let mut switch = ModeSwitch::new(choice, SwitchParams::default());
         let wanted = switch.wanted();
         for second in 0..20 {
