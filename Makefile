@@ -3,7 +3,7 @@
 OUT := out
 SUNBLIND := target/release/sunblind
 
-.PHONY: help build demo test lint bench clean
+.PHONY: help build demo test lint bench gallery clean
 
 help: ## what there is
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /\1\t/' | expand -t 10
@@ -25,6 +25,9 @@ lint: ## clippy, warnings are errors
 
 bench: build ## times a frame, and SURF beside dlib's where that is built (needs recorded data)
 	cargo bench -p sunblind-tests
+
+gallery: build ## pictures of ten places in five lights, for docs/gallery.md
+	@docs/make-gallery
 
 clean: ## forgets builds and outputs
 	cargo clean

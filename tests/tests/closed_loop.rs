@@ -88,19 +88,49 @@ fn digest_of(folder: &Path) -> String {
 fn the_digest_is_the_same_in_every_run_with_any_number_of_threads() {
     let place = tempfile::tempdir().unwrap();
     let short = ["--short", "--set", "short.duration_s=1.5", "--set", "short.expect=[]"];
+    let scenarios = ["lab_loop.toml", "yard_noon.toml", "campus.toml"];
     let digests = [("again", None), ("one thread", Some("1")), ("three threads", Some("3"))].map(|(name, threads)| {
         let out = place.path().join(name);
-        let output = run(&["lab_loop.toml"], &out, &short, threads);
+        let output = run(&scenarios, &out, &short, threads);
         assert_eq!(output.status.code(), Some(0), "{}", stderr_of(&output));
+        scenarios.map(|name| digest_of(&out.join(name.trim_end_matches(".toml"))))
+    });
+    assert!(digests.iter().all(|digest| *digest == digests[0]), "{digests:?}");
+    assert!(digests[0].iter().all(|digest| digest.len() == 64), "{digests:?}");
+}
+
+#[test]
+fn a_fast_run_says_so_has_a_digest_of_its_own_and_is_localised_all_the_same() {
+    let place = tempfile::tempdir().unwrap();
+    let short = ["--short", "--set", "short.duration_s=1.5", "--set", "short.expect=[]"];
+    let digests = ["fast", "full", "fast"].map(|quality| {
+        let out = place.path().join(quality);
+        let output = run(&["lab_loop.toml"], &out, &[&short[..], &["--quality", quality]].concat(), None);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr_of(&output));
+        let summary = fs::read_to_string(out.join("summary.json")).expect("a summary");
+        assert!(summary.contains(&format!("\"quality\": \"{quality}\"")) && summary.contains("\"lost_frames\": 0"));
         digest_of(&out)
     });
-    assert!(digests.iter().all(|digest| *digest == digests[0] && digest.len() == 64), "{digests:?}");
+    assert!(digests[0] == digests[2] && digests[0] != digests[1], "{digests:?}");
+    let output = run(&["lab_loop.toml"], &place.path().join("quick"), &["--quality", "quick"], None);
+    assert!(output.status.code() == Some(2) && stderr_of(&output).contains("fast, full"), "{}", stderr_of(&output));
 }
 
 #[test]
 fn every_scenario_holds_in_its_short_form() {
     let place = tempfile::tempdir().unwrap();
-    let names = ["lab_loop", "circle", "figure_eight"];
+    let names = [
+        "lab_loop",
+        "circle",
+        "figure_eight",
+        "lab",
+        "yard_noon",
+        "yard_overcast",
+        "yard_low_sun",
+        "night",
+        "doorway",
+        "campus",
+    ];
     let files = names.map(|name| format!("{name}.toml"));
     let output = run(&files.each_ref().map(String::as_str), place.path(), &["--short"], None);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout_of(&output), stderr_of(&output));

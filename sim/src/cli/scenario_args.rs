@@ -14,6 +14,9 @@ pub(super) struct ScenarioArgs {
     /// Another seed than the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// `fast`: images of 320 × 240, for smoke tests; in the scenario, kinect.quality
+    #[arg(long, value_name = "HOW", value_parser = ["fast", "full"])]
+    quality: Option<String>,
     /// The scenario's short form
     #[arg(long)]
     short: bool,
@@ -22,7 +25,9 @@ pub(super) struct ScenarioArgs {
 impl ScenarioArgs {
     /// The scenario with its changes, and where its keys stand.
     pub fn load(&self, file: &Path) -> Result<(Source, AnyScenario), ScenarioError> {
-        let overrides: Vec<_> = self.overrides.iter().cloned().chain(self.seed.map(Override::seed)).collect();
+        let mut overrides = self.overrides.clone();
+        overrides.extend(self.seed.map(Override::seed));
+        overrides.extend(self.quality.as_deref().map(Override::quality));
         let source = Source::read(file, &overrides)?;
         let scenario = source.scenario()?;
         Ok((source, if self.short { scenario.shortened() } else { scenario }))

@@ -9,6 +9,7 @@ use rand_distr::{Distribution, StandardNormal};
 use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, Rig};
 
 use super::matcher::NO_DEPTH;
+use super::projector::PITCH;
 use crate::random::stream;
 
 /// Raw disparity of a surface at the reference distance: z = 8·b·f/(offset − raw) with the published offset of 1090,
@@ -36,6 +37,8 @@ pub struct Calibration {
     pub baseline: f64,
     /// Distance of the plane whose pattern the unit has stored; metres.
     pub reference_distance: f64,
+    /// Tangent from one grid position of the projected pattern to the next.
+    pub pattern_pitch: f64,
 }
 
 impl Calibration {
@@ -60,6 +63,7 @@ impl Calibration {
             colour_from_infrared: Isometry3::from(Translation3::new(-0.025, 0.0, 0.0)),
             baseline: 0.075,
             reference_distance: 1.2,
+            pattern_pitch: PITCH,
         }
     }
 
@@ -78,6 +82,21 @@ impl Calibration {
         let turn = axis.cap_magnitude(1.0) * TURN_SPREAD_DEG.to_radians();
         unit.colour_from_infrared.rotation = UnitQuaternion::from_scaled_axis(turn);
         unit
+    }
+
+    /// The unit in a coarser make, that nobody sells: half the pixels along each edge, the same views, a pattern twice as
+    /// wide. Pixel for pixel its images are about as hard to match as the full unit's, in any light; the least step of depth
+    /// is twice as long.
+    pub fn halved(mut self) -> Self {
+        for camera in [&mut self.infrared, &mut self.colour] {
+            (camera.width, camera.height) = (camera.width / 2, camera.height / 2);
+            (camera.fx, camera.fy) = (camera.fx / 2.0, camera.fy / 2.0);
+            // Pixel centres lie at whole numbers.
+            let middle = |centre: f64| (centre + 0.5) / 2.0 - 0.5;
+            (camera.cx, camera.cy) = (middle(camera.cx), middle(camera.cy));
+        }
+        self.pattern_pitch *= 2.0;
+        self
     }
 
     /// What this unit's raw values mean.
@@ -173,6 +192,23 @@ mod tests {
             assert!((0.9 * reach..=reach * (1.0 + 1e-9)).contains(&off), "{off} of {reach}");
         }
         assert!(units.iter().all(|unit| unit.rig(Isometry3::identity()).validate().is_ok()));
+    }
+
+    #[test]
+    fn a_halved_unit_sees_the_same_in_fewer_pixels() {
+        let (unit, halved) = (Calibration::drawn(5), Calibration::drawn(5).halved());
+        for (full, half) in [(unit.infrared, halved.infrared), (unit.colour, halved.colour)] {
+            assert_eq!((half.width, half.height), (320, 240));
+            // The corner between four pixels that become one.
+            for (x, y) in [(0.5, 0.5), (320.5, 240.5), (638.5, 478.5)] {
+                let [ray, coarse] = [full.ray(&[x, y].into()), half.ray(&[(x - 0.5) / 2.0, (y - 0.5) / 2.0].into())];
+                assert!((ray - coarse).norm() < 1e-9, "({x}, {y})");
+            }
+        }
+        let depth = halved.rig(Isometry3::identity()).depth;
+        let step = 4.0 / (STEPS_PER_PIXEL * 0.075 * halved.infrared.fx);
+        assert!((depth.depth_of(halved.raw_of(2.0)).unwrap() - 2.0).abs() < 0.51 * step);
+        assert_eq!(halved.rig(Isometry3::identity()).validate(), Ok(()));
     }
 
     #[test]

@@ -203,6 +203,12 @@ impl Kinect {
         self.renderer.profile(&self.frame(world_from_infrared, 0))
     }
 
+    /// Triangles that one frame has the graphics adapter draw: for the projector, for the colour and for the infrared
+    /// camera.
+    pub fn triangles_drawn(&self, world_from_infrared: &Sweep) -> [usize; 3] {
+        self.renderer.triangles_drawn(&self.frame(world_from_infrared, 0))
+    }
+
     /// Lets the exposures adapt as they do in the first seconds after switching on.
     fn settle(&mut self, world_from_infrared: &Sweep) -> Result<(), RenderError> {
         for _ in 0..SETTLING_IMAGES {
@@ -264,7 +270,7 @@ fn projector_light<'a>(calibration: &Calibration, projector: &'a Projector) -> P
     ProjectorLight {
         baseline: calibration.baseline as f32,
         toe_in: projector.toe_in as f32,
-        pitch: projector::PITCH as f32,
+        pitch: projector.pitch as f32,
         pincushion: projector::PINCUSHION as f32,
         peak_irradiance: projector::PEAK_IRRADIANCE_AT_1_M as f32,
         tile_grid: [pattern::TILE_WIDTH, pattern::TILE_HEIGHT],
@@ -307,10 +313,7 @@ mod tests {
             let (ahead, eye) = ((to - from).normalize().extend(0.0), from.extend(0.6));
             let axes = DMat3::from_cols(ahead.cross(DVec3::Z), DVec3::NEG_Z, ahead);
             let sweep = Sweep::still(DAffine3::from_mat3_translation(axes, eye));
-            let most_of = |kinect: &Kinect| {
-                let drawn = kinect.renderer.triangles_drawn(&kinect.frame(&sweep, 0));
-                drawn.into_iter().max().unwrap_or(0)
-            };
+            let most_of = |kinect: &Kinect| kinect.triangles_drawn(&sweep).into_iter().max().unwrap_or(0);
             most = most.max(most_of(&culling));
             most_of_all = most_of_all.max(most_of(&drawing_all));
             if at % 12 == 0 {

@@ -8,7 +8,7 @@ use super::pattern::{TILE_HEIGHT, TILE_WIDTH, TILES, Tile};
 
 /// Infrared pixel in which the dots' size and pitch are published: a tangent, at 580 px.
 const PIXEL: f64 = 1.0 / 580.0;
-/// Tangent from one grid position to the next in the pattern's middle: 1.05 px. A guess: published as about 1.0 px,
+/// Tangent from one grid position to the next in the pattern's middle, of units that are sold: 1.05 px. A guess: published as about 1.0 px,
 /// and with the pincushion below the whole pattern spans the published 63°×49°.
 pub const PITCH: f64 = 1.05 * PIXEL;
 /// Pincushion of the projector's lens, on r². A guess within 0.1 to 0.2.
@@ -98,13 +98,16 @@ pub struct Projector {
     pub toe_in: f64,
     /// From the infrared camera to the projector, along x; metres.
     pub baseline: f64,
+    /// Tangent from one grid position to the next in the pattern's middle.
+    pub pitch: f64,
 }
 
 impl Projector {
     /// The projector that belongs to a unit.
     pub fn of(calibration: &Calibration) -> Self {
         let toe_in = calibration.baseline / calibration.reference_distance;
-        Self { tile: TileImage::of(Tile::kinect()), toe_in, baseline: calibration.baseline }
+        let Calibration { baseline, pattern_pitch: pitch, .. } = *calibration;
+        Self { tile: TileImage::of(Tile::kinect()), toe_in, baseline, pitch }
     }
 
     /// The pattern's light in a direction; 1 is the peak of a bright dot in a tile of brightness 1.
@@ -115,8 +118,8 @@ impl Projector {
             let stretch = 1.0 + PINCUSHION * (grid_x * grid_x + grid_y * grid_y);
             (grid_x, grid_y) = (x / stretch, y / stretch);
         }
-        let column = grid_x / PITCH + ((TILES * TILE_WIDTH) / 2) as f64;
-        let row = grid_y / PITCH + ((TILES * TILE_HEIGHT) / 2) as f64;
+        let column = grid_x / self.pitch + ((TILES * TILE_WIDTH) / 2) as f64;
+        let row = grid_y / self.pitch + ((TILES * TILE_HEIGHT) / 2) as f64;
         let tile_x = ((column + 0.5) / TILE_WIDTH as f64).floor();
         let tile_y = ((row + 0.5) / TILE_HEIGHT as f64).floor();
         let inside = 0.0..TILES as f64;

@@ -2,6 +2,14 @@
 
 use super::{Bands, coloured};
 
+/// Groups whose names begin so are a passing car's headlights at one place after another: dark unless they are named.
+pub const HEADLIGHTS: &str = "headlights";
+
+/// The group of the lamps that a car has at the `index`th place.
+pub fn headlights(index: usize) -> String {
+    format!("{HEADLIGHTS} {index}")
+}
+
 /// What a lamp makes light with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LampKind {

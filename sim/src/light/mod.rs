@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 pub use daylight::daylight;
-pub use lamp::LampKind;
+pub use lamp::{HEADLIGHTS, LampKind, headlights};
 pub use moon::moonlight;
 pub use sky::Sky;
 pub use sun::{BadDate, Clock, Place};
@@ -35,7 +35,8 @@ const GROUND_ALBEDO: Bands = [0.12, 0.13, 0.09, 0.3];
 /// What shines at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightState {
-    /// Brightness of a group's lamps, in multiples of their exitance; groups that are not named have 1.
+    /// Brightness of a group's lamps, in multiples of their exitance; groups that are not named have 1, a passing car's
+    /// [`HEADLIGHTS`] 0.
     pub lamps: BTreeMap<String, f32>,
     /// What comes through a building's windows, by channel, in multiples of an overcast day.
     pub windows: Bands,
@@ -84,7 +85,7 @@ impl LightState {
 
     /// Brightness of a group of lamps.
     pub fn lamps_of(&self, group: &str) -> f32 {
-        self.lamps.get(group).copied().unwrap_or(1.0)
+        self.lamps.get(group).copied().unwrap_or(if group.starts_with(HEADLIGHTS) { 0.0 } else { 1.0 })
     }
 
     /// The ground at the horizon where a world ends: luminance, radiance.

@@ -13,10 +13,21 @@ use super::stage::{Binding, Stage};
 use super::uniforms::{self, ColourSensor, InfraredSensor};
 use super::view::{NEAR, TAPS, View};
 
-/// The projector's map of depth: pixels, and its focal length. Covers the whole pattern and has about the infrared
-/// camera's resolution.
-pub(super) const MAP_SIZE: [u32; 2] = [752, 576];
-pub(super) const MAP_FOCAL: f32 = 580.0;
+/// The projector's map of depth.
+#[derive(Clone, Copy)]
+pub(super) struct MapShape {
+    /// Pixels.
+    pub size: [u32; 2],
+    pub focal: f32,
+}
+
+impl MapShape {
+    /// For the camera that sees the pattern: covers the whole pattern and has about the camera's resolution.
+    pub fn of(infrared: &CameraModel) -> Self {
+        let scaled = |at_640: u32| at_640 * infrared.width as u32 / 640;
+        Self { size: [752, 576].map(scaled), focal: scaled(580) as f32 }
+    }
+}
 
 /// The optics of a device, which do not change.
 pub struct Optics<'a> {
@@ -224,15 +235,15 @@ fn sensor_stage(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_
 }
 
 /// What shaders are told of the projector.
-pub(super) fn projector_uniform(projector: &ProjectorLight<'_>) -> uniforms::Projector {
+pub(super) fn projector_uniform(projector: &ProjectorLight<'_>, map: MapShape) -> uniforms::Projector {
     uniforms::Projector {
         baseline: projector.baseline,
         toe_in: projector.toe_in,
         pitch: projector.pitch,
         pincushion: projector.pincushion,
         peak_irradiance: projector.peak_irradiance,
-        map_focal: MAP_FOCAL,
-        map_size: Vec2::from(MAP_SIZE.map(|size| size as f32)),
+        map_focal: map.focal,
+        map_size: Vec2::from(map.size.map(|size| size as f32)),
         map_near: NEAR,
         tile_width: projector.tile_grid[0] as f32,
         tile_height: projector.tile_grid[1] as f32,

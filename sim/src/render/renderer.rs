@@ -7,9 +7,7 @@ use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2};
 
 use super::daylight::Daylight;
 use super::device::{Adapter, Device, RenderError};
-use super::passes::{
-    CameraPasses, MAP_FOCAL, MAP_SIZE, Optics, Samplers, colour_passes, infrared_passes, projector_uniform,
-};
+use super::passes::{CameraPasses, MapShape, Optics, Samplers, colour_passes, infrared_passes, projector_uniform};
 use super::raster::{DepthMap, uniform_buffer};
 use super::readback::Readback;
 use super::scene::Scene;
@@ -103,7 +101,8 @@ impl Renderer {
         let scene = Scene::upload(&gpu, world)?;
         let samplers = Samplers::new(&gpu);
         let projector_clip = uniform_buffer(&gpu, size_of::<Mat4>());
-        let projector_map = DepthMap::new(&gpu, MAP_SIZE, &projector_clip, SLOPE_BIAS, false);
+        let map_shape = MapShape::of(&optics.infrared);
+        let projector_map = DepthMap::new(&gpu, map_shape.size, &projector_clip, SLOPE_BIAS, false);
         let daylight = Daylight::new(&gpu, world.open_sky);
         let colour = colour_passes(&gpu, optics, &scene, &samplers, &daylight);
         let projector = uniform_buffer(&gpu, size_of::<Projector>());
@@ -117,7 +116,7 @@ impl Renderer {
             projector_map,
             projector_clip,
             infrared_from_projector: DAffine3::from_translation(along_baseline),
-            projector: projector_uniform(&optics.projector),
+            projector: projector_uniform(&optics.projector, map_shape),
             projector_uniform: projector,
             colour,
             infrared,
@@ -209,10 +208,9 @@ impl Renderer {
         let colour = self.colour.view.uniform(&frame.colour, self.daylight.towards());
         let infrared = self.infrared.view.uniform(&frame.infrared, self.daylight.towards());
         let world_from_projector = frame.infrared.sweep.middle() * self.infrared_from_projector;
-        let size = Vec2::from(MAP_SIZE.map(|size| size as f32));
         let turned = Projector { toe_in: self.projector.toe_in + frame.projector_turn, ..self.projector };
-        let centre = size / 2.0 + Vec2::new(turned.toe_in * MAP_FOCAL, 0.0);
-        let clip_from_projector = clip_from_camera(Vec2::splat(MAP_FOCAL), centre, size, NEAR);
+        let centre = turned.map_size / 2.0 + Vec2::new(turned.toe_in * turned.map_focal, 0.0);
+        let clip_from_projector = clip_from_camera(Vec2::splat(turned.map_focal), centre, turned.map_size, NEAR);
         let projector = (clip_from_projector.as_dmat4() * DMat4::from(world_from_projector.inverse())).as_mat4();
         write(&self.projector_clip, bytemuck::bytes_of(&projector));
         write(&self.projector_uniform, bytemuck::bytes_of(&turned));
@@ -241,8 +239,7 @@ impl Renderer {
     }
 
     /// Triangles drawn for each view: projector, colour, infrared.
-    #[cfg(test)]
-    pub(crate) fn triangles_drawn(&self, frame: &Frame) -> [usize; 3] {
+    pub fn triangles_drawn(&self, frame: &Frame) -> [usize; 3] {
         let plan = self.prepare(frame);
         [plan.projector_clip, plan.colour_clip, plan.infrared_clip].map(|clip| self.scene.triangles_drawn(&clip))
     }

@@ -138,6 +138,11 @@ impl Scene {
         seen.into_iter().map(|(_, part)| part)
     }
 
+    /// How many triangles a view has drawn.
+    pub fn triangles_drawn(&self, clip_from_world: &Mat4) -> usize {
+        self.seen(clip_from_world).map(|part| part.indices.len() / 3).sum()
+    }
+
     /// Draws what a view may show, near things first, so that what they hide costs little.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, clip_from_world: &Mat4) {
         pass.set_vertex_buffer(0, self.positions.slice(..));
@@ -205,10 +210,5 @@ impl Scene {
     /// Has everything in view drawn, hidden or not.
     pub fn forget_occluders(&mut self) {
         self.occluders.clear();
-    }
-
-    /// How many triangles a view has drawn.
-    pub fn triangles_drawn(&self, clip_from_world: &Mat4) -> usize {
-        self.seen(clip_from_world).map(|part| part.indices.len() / 3).sum()
     }
 }

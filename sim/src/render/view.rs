@@ -8,8 +8,9 @@ use super::uniforms;
 
 /// Nearest depth rendered, metres. A guess; the robot's own body keeps everything further away.
 pub(super) const NEAR: f32 = 0.05;
-/// Pixels of the G-buffer beyond what a camera at rest sees: how far things may move in during half a frame.
-const MOTION_MARGIN: f64 = 16.0;
+/// What the G-buffer has beyond what a camera at rest sees, share of its width: how far things may move in during half a
+/// frame.
+const MOTION_MARGIN: f64 = 0.025;
 /// How many instants of an exposure may be averaged: at rest, driving, spinning. Odd, so that one is in its middle.
 pub(super) const TAPS: [u32; 3] = [1, 3, 7];
 /// Motion in the image that may pass from one of them to the next, pixels.
@@ -84,7 +85,7 @@ pub(super) struct View {
 
 impl View {
     pub fn new(model: CameraModel) -> Self {
-        Self { model, margin: (overshoot(&model) + MOTION_MARGIN).ceil() as u32 }
+        Self { model, margin: (overshoot(&model) + MOTION_MARGIN * model.width as f64).ceil() as u32 }
     }
 
     /// The camera.

@@ -175,6 +175,7 @@ fn provenance(judged: &Judged) -> Vec<(&'static str, String)> {
     if let Some(facts) = &log.facts {
         rows.push(("Way driven", length(facts.path)));
         rows.push(("Seed", facts.seed.to_string()));
+        rows.push(("Quality", facts.quality.name().into()));
     }
     rows.extend([("Wall time", duration(log.wall)), ("CPU time", duration(log.cpu))]);
     let factor = judged.real_time_factor();

@@ -10,6 +10,7 @@ use super::judged::{Judged, lost_frames, tracked_frames};
 use super::timing::{STAGES, StageTime, Timing};
 use crate::evaluation::Evaluation;
 use crate::runner::log::Track;
+use crate::scenario::Quality;
 use crate::scenario::expect::Judged as Expected;
 
 /// The layout's version, raised when a field changes its meaning or goes.
@@ -22,6 +23,8 @@ struct Summary<'a> {
     scenario: &'a str,
     /// `null` for a recording, as is all that only a simulation has.
     seed: Option<u64>,
+    /// `fast` or `full`.
+    quality: Option<Quality>,
     digest: &'a str,
     adapter: Option<&'a str>,
     driver: Option<&'a str>,
@@ -85,6 +88,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
         schema: SCHEMA,
         scenario: &log.recording,
         seed: facts.map(|facts| facts.seed),
+        quality: facts.map(|facts| facts.quality),
         digest: &log.digest,
         adapter: facts.and_then(|facts| facts.adapter.as_deref()),
         driver: facts.and_then(|facts| facts.driver.as_deref()),

@@ -109,6 +109,7 @@ fn facts(log: &RunLog, scenario: &Scenario, simulator: &Simulator, physics: Dura
     let way = simulator.truth().windows(2);
     RunFacts {
         seed: scenario.seed,
+        quality: scenario.kinect.quality,
         duration: simulator.now().as_secs(),
         path: way.map(|pair| position_error(&pair[0].world_from_body, &pair[1].world_from_body)).sum(),
         adapter: Some(simulator.adapter().name.clone()),

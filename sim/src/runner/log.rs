@@ -7,6 +7,7 @@ use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{Health, Mode, Timestamp};
 
 use crate::evaluation::StampedPose;
+use crate::scenario::Quality;
 use crate::scenario::expect::Judged;
 use crate::world::plan::Plan;
 
@@ -50,6 +51,8 @@ pub struct RunLog {
 pub struct RunFacts {
     /// The seed of all its random numbers.
     pub seed: u64,
+    /// How finely the Kinect looked.
+    pub quality: Quality,
     /// Simulated time, seconds.
     pub duration: f64,
     /// Length of the way that the robot truly went, metres.

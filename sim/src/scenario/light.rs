@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::Fault;
 use super::check::{number, optional};
 use super::error::nearest;
-use crate::light::{self, BadDate, Clock, LightState, daylight, moonlight};
+use crate::light::{self, BadDate, Clock, HEADLIGHTS, LightState, daylight, headlights, moonlight};
 use crate::world::{WINDOWS, World};
 
 /// Direct sun on a window is some 30 times an overcast day.
@@ -20,6 +20,11 @@ const SHARE: std::ops::RangeInclusive<f64> = 0.0..=1.0;
 const BRIGHTNESS: std::ops::RangeInclusive<f64> = 0.0..=10.0;
 /// An hour and a day: no run is longer.
 const SECONDS: std::ops::RangeInclusive<f64> = 0.0..=90_000.0;
+
+/// At how many places a passing car shines into the yard.
+const CAR_PLACES: usize = 4;
+/// Seconds that a passing car takes from one of its places to the next: 4 to 6 m, at some 20 km/h through a bend.
+const BETWEEN_PLACES: f64 = 0.8;
 
 /// What shines at the start of a run. The day comes from `sun`, or from `place`, `date` and `time_utc`; without either it
 /// is an overcast day of `daylight_scale`.
@@ -45,6 +50,8 @@ pub struct Light {
     pub cloud_cover: f64,
     /// The moon, if it is up.
     pub moon: Option<Moon>,
+    /// When a car comes along the street and shines through the yard's gate, seconds after the start; it passes in four.
+    pub cars_at_s: Vec<f64>,
     /// What changes on the way, in the order of time.
     pub timeline: Vec<Change>,
 }
@@ -61,6 +68,7 @@ impl Default for Light {
             time_utc: None,
             cloud_cover: 0.0,
             moon: None,
+            cars_at_s: Vec::new(),
             timeline: Vec::new(),
         }
     }
@@ -153,7 +161,17 @@ impl Light {
             let of_group = now.lamp_brightness.get(group).copied().unwrap_or(1.0);
             (group.clone(), (now.lamps * of_group) as f32)
         };
-        LightState { lamps: groups.iter().map(brightness).collect(), ..state }
+        let lamps = groups.iter().map(brightness).chain(self.headlights(at)).collect();
+        LightState { lamps, ..state }
+    }
+
+    /// Of the cars that are passing: from one place to the next the one light fades into the other.
+    fn headlights(&self, at: f64) -> impl Iterator<Item = (String, f32)> {
+        let nearness = move |place: usize, came: f64| 1.0 - ((at - came) / BETWEEN_PLACES - 1.0 - place as f64).abs();
+        (0..CAR_PLACES).filter_map(move |place| {
+            let brightness: f64 = self.cars_at_s.iter().map(|&came| nearness(place, came).max(0.0)).sum();
+            (brightness > 0.0).then(|| (headlights(place), brightness as f32))
+        })
     }
 
     /// Checks everything that can be known without the world.
@@ -163,6 +181,7 @@ impl Light {
     pub(super) fn check(&self) -> Result<(), Fault> {
         number("light.daylight_scale", self.daylight_scale, DAYLIGHT)?;
         number("light.cloud_cover", self.cloud_cover, SHARE)?;
+        self.cars_at_s.iter().try_for_each(|&at| number("light.cars_at_s", at, SECONDS))?;
         check_brightness("light", &self.lamp_brightness)?;
         if let Some(sun) = &self.sun {
             sun.check("light.sun")?;
@@ -307,9 +326,10 @@ impl Change {
     }
 }
 
-/// The groups of lamps that a world has; what its windows let in is no lamp's.
+/// The groups of lamps that a world has; what its windows let in is no lamp's, and cars pass when they do.
 pub fn lamp_groups(world: &World) -> Vec<String> {
-    world.lamp_groups().into_iter().filter(|group| *group != WINDOWS).map(str::to_owned).collect()
+    let fixed = |group: &&str| *group != WINDOWS && !group.starts_with(HEADLIGHTS);
+    world.lamp_groups().into_iter().filter(fixed).map(str::to_owned).collect()
 }
 
 fn check_brightness(table: &str, brightness: &BTreeMap<String, f64>) -> Result<(), Fault> {
@@ -328,6 +348,22 @@ mod tests {
 
     fn problem(text: &str) -> Fault {
         light(text).check().unwrap_err()
+    }
+
+    #[test]
+    fn a_car_passes_and_is_gone() {
+        let light = light("cars_at_s = [20.0, 50.0]");
+        let brightness = |at: f64| [0, 1, 2, 3].map(|place| light.at(at, &[]).lamps_of(&headlights(place)));
+        for dark in [0.0, 20.0, 24.0, 49.9, 54.1] {
+            assert_eq!(brightness(dark), [0.0; 4], "{dark} s");
+        }
+        for after in [20.0, 50.0] {
+            assert!(brightness(after + 0.8)[0] > 0.999);
+            let [first, second, ..] = brightness(after + 1.2);
+            assert!((first - 0.5).abs() < 1e-6 && (second - 0.5).abs() < 1e-6);
+            assert!(brightness(after + 3.6)[3] > 0.4);
+        }
+        assert_eq!(LightState::default().lamps_of(&headlights(0)), 0.0, "no scenario, no car");
     }
 
     #[test]

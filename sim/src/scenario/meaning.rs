@@ -4,7 +4,7 @@ use glam::DVec3;
 use nalgebra::Point2;
 
 use super::light::lamp_groups;
-use super::{Fault, Floor, Robot, Scenario, WorldName};
+use super::{Fault, Floor, Quality, Robot, Scenario, WorldName};
 use crate::kinect::Imaging;
 use crate::kinect::calibration::{Calibration, Residual};
 use crate::physics::{self, FloorPlan};
@@ -95,12 +95,16 @@ impl From<super::Kinect> for Imaging {
 impl super::Kinect {
     /// How the unit is truly built.
     pub fn unit(&self) -> Calibration {
-        self.unit_seed.map_or_else(Calibration::nominal, Calibration::drawn)
+        let unit = self.unit_seed.map_or_else(Calibration::nominal, Calibration::drawn);
+        match self.quality {
+            Quality::Fast => unit.halved(),
+            Quality::Full => unit,
+        }
     }
 
     /// How far what is believed of it may be from that.
     pub fn residual(&self) -> Residual {
-        Residual { pixels: self.residual_px, degrees: self.residual_deg }
+        Residual { pixels: self.residual_px / self.quality.coarseness(), degrees: self.residual_deg }
     }
 }
 

@@ -1,4 +1,4 @@
-//! `--set key=value` and `--seed N`: what is changed for one run.
+//! `--set key=value`, `--seed N` and `--quality HOW`: what is changed for one run.
 
 use std::fmt;
 use std::str::FromStr;
@@ -17,6 +17,11 @@ impl Override {
     /// `--seed N`.
     pub fn seed(seed: u64) -> Self {
         Self { key: "seed".into(), value: seed.to_string(), option: "--seed" }
+    }
+
+    /// `--quality HOW`.
+    pub fn quality(quality: &str) -> Self {
+        Self { key: "kinect.quality".into(), value: as_toml(quality), option: "--quality" }
     }
 }
 
@@ -39,7 +44,7 @@ impl FromStr for Override {
 impl fmt::Display for Override {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { key, value, option } = self;
-        if *option == "--seed" { write!(out, "{option} {value}") } else { write!(out, "{option} {key}={value}") }
+        if *option == "--set" { write!(out, "{option} {key}={value}") } else { write!(out, "{option} {value}") }
     }
 }
 
@@ -67,5 +72,6 @@ mod tests {
             assert_eq!(text.parse::<Override>().unwrap().to_string(), "--set path.kind=\"circle\"");
         }
         assert_eq!(Override::seed(7).to_string(), "--seed 7");
+        assert_eq!(Override::quality("fast").to_string(), "--quality \"fast\"");
     }
 }

@@ -10,6 +10,8 @@ mod refine;
 mod residual;
 mod search;
 
+use std::ops::Range;
+
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use sunblind_estimator::image::{DepthImage, InfraredImage};
@@ -25,10 +27,11 @@ pub const NO_DEPTH: u16 = 2047;
 
 /// Half the matched window, pixels: 9×9 (ROS `kinect_calibration/technical` says 9×9 or 9×7).
 const RADIUS: usize = 4;
-/// Shifts tried. With 580 px and 75 mm from 0.46 m to infinity; the 64 that are often quoted would end at 0.64 m.
-const CANDIDATES: usize = 96;
-/// The first of them, pixels: a surface at infinity shows the pattern 36.25 px left of the reference.
-const NEAREST: isize = -36;
+/// Shifts tried, in pixels of an image [`WIDTH`] wide. With 580 px and 75 mm from 0.46 m to infinity; the 64 that are
+/// often quoted would end at 0.64 m. A surface at infinity shows the pattern 36.25 px left of the reference.
+const SHIFTS: Range<isize> = -36..60;
+/// A full image's columns; of fewer, shifts are the shorter.
+const WIDTH: isize = 640;
 /// Columns of the reference beyond the image on each side: the furthest shift and a window.
 const MARGIN: usize = 72;
 /// Brightness of a dot in the stored reference, of 1023; the tiles' middle dots saturate. No matter for matching.
@@ -61,8 +64,9 @@ impl Matcher {
             })
             .collect();
         let residual = Residual::of(&pixels, wide, height);
-        let bits = ReferenceBits::of(&residual, MARGIN, width);
-        Self { bits, reference: Reference::of(residual, MARGIN), width, height }
+        let [first, end] = [SHIFTS.start, SHIFTS.end].map(|shift| shift * width as isize / WIDTH);
+        let bits = ReferenceBits::of(&residual, MARGIN, width, first..end);
+        Self { bits, reference: Reference::of(residual, MARGIN, first), width, height }
     }
 
     /// Raw disparity of every pixel, [`NO_DEPTH`] where there is none.

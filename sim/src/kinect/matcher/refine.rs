@@ -1,8 +1,8 @@
 //! Sub-pixel disparity: the correlation of the window with the reference at the found candidate and beside it.
 
+use super::RADIUS;
 use super::residual::Residual;
 use super::search::NO_MATCH;
-use super::{NEAREST, RADIUS};
 
 /// Columns of the correlated window, a whole vector of 16-bit numbers; rows are 2·[`RADIUS`] + 1.
 const COLUMNS: usize = 8;
@@ -22,6 +22,8 @@ pub(super) struct Reference {
     residual: Residual,
     /// Columns left of the live image's first.
     margin: usize,
+    /// Of the first candidate, pixels.
+    first_shift: isize,
     /// 1/√(sum of squares) of the window at each pixel.
     inverse_norm: Vec<f32>,
 }
@@ -63,9 +65,9 @@ impl Live {
 }
 
 impl Reference {
-    pub fn of(residual: Residual, margin: usize) -> Self {
+    pub fn of(residual: Residual, margin: usize, first_shift: isize) -> Self {
         let inverse_norm = norms(&residual).into_iter().map(|norm| norm.max(1.0).recip()).collect();
-        Self { residual, margin, inverse_norm }
+        Self { residual, margin, first_shift, inverse_norm }
     }
 
     /// The depth engine's last step for row `y` of an image: from the candidates found for its pixels, none near its
@@ -75,10 +77,10 @@ impl Reference {
     pub fn refine_row(&self, live: &Live, y: usize, candidates: &[u8], row: &mut Row, shifts: &mut [f32]) {
         let mut x = 0;
         for run in candidates.chunk_by(|a, b| a == b) {
-            let whole = if run[0] == NO_MATCH { NO_SHIFT } else { f32::from(run[0]) + NEAREST as f32 };
+            let whole = if run[0] == NO_MATCH { NO_SHIFT } else { f32::from(run[0]) + self.first_shift as f32 };
             shifts[x..x + run.len()].fill(whole);
             if run[0] != NO_MATCH {
-                self.correlate(live, [x, y], NEAREST + isize::from(run[0]), run.len(), row);
+                self.correlate(live, [x, y], self.first_shift + isize::from(run[0]), run.len(), row);
             }
             x += run.len();
         }

@@ -3,9 +3,11 @@
 //! Bit-sliced: a word holds one bit of 64 neighbouring pixels, a number of n bits is n such words, and every operation
 //! works on all of them. A word's outer bits only feed their neighbours' windows, 56 pixels of it are results.
 
+use std::ops::Range;
+
 use super::lanes::{LANES, Lanes, add, less, subtract};
 use super::residual::Residual;
-use super::{CANDIDATES, NEAREST, RADIUS};
+use super::{RADIUS, SHIFTS};
 
 /// Pixels a word has results for.
 const USEFUL: usize = 64 - 2 * RADIUS;
@@ -19,7 +21,7 @@ const COST_PLANES: usize = 5;
 /// By how much the next best candidate, unless it is the best one's neighbour, must be worse for a match to be unique.
 /// Chosen in the tests of the matcher: wrong matches stay below one in a hundred in any noise.
 const MARGIN: u32 = 2;
-const DISPARITY_PLANES: usize = CANDIDATES.ilog2() as usize + 1;
+const DISPARITY_PLANES: usize = (SHIFTS.end - SHIFTS.start).ilog2() as usize + 1;
 
 /// An image of single bits: brighter than its surroundings or not.
 pub(super) struct BitImage {
@@ -73,10 +75,10 @@ pub(super) struct ReferenceBits {
 }
 
 impl ReferenceBits {
-    /// `margin`: columns of the reference left of the live image's first.
-    pub fn of(reference: &Residual, margin: usize, width: usize) -> Self {
-        let left = |candidate: usize| margin as isize - (NEAREST + candidate as isize);
-        Self { candidates: (0..CANDIDATES).map(|at| BitImage::of(reference, left(at), width)).collect() }
+    /// `margin`: columns of the reference left of the live image's first. `shifts`: one for each candidate.
+    pub fn of(reference: &Residual, margin: usize, width: usize, shifts: Range<isize>) -> Self {
+        let candidate = |shift| BitImage::of(reference, margin as isize - shift, width);
+        Self { candidates: shifts.map(candidate).collect() }
     }
 
     /// The best candidate of each pixel in rows `top..bottom`, or [`NO_MATCH`], to `found` (row after row). At most

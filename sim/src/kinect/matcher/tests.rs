@@ -15,7 +15,10 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
-        let calibration = Calibration::nominal();
+        Self::of(Calibration::nominal())
+    }
+
+    fn of(calibration: Calibration) -> Self {
         let projector = Projector::of(&calibration);
         let matcher = Matcher::new(&calibration, &projector);
         Self { calibration, projector, matcher }
@@ -37,7 +40,7 @@ impl Bench {
 
     /// Raw disparity, unrounded, of a depth.
     fn raw(&self, z: f64) -> f64 {
-        REFERENCE_RAW - STEPS_PER_PIXEL * 43.5 * (1.0 / z - 1.0 / 1.2)
+        REFERENCE_RAW - STEPS_PER_PIXEL * 0.075 * self.calibration.infrared.fx * (1.0 / z - 1.0 / 1.2)
     }
 }
 
@@ -60,7 +63,8 @@ impl Bench {
     fn find_wall(&self, z: f64, noise: f64) -> Found {
         let depth = self.matcher.depth(&self.infrared(|_, _| z, DOT, AMBIENT, noise));
         // Inside the dead margins, and where the pattern reaches at any distance.
-        let raw: Vec<u16> = (8..472).flat_map(|y| depth.row(y)[24..616].to_vec()).collect();
+        let raw: Vec<u16> =
+            (8..depth.height() - 8).flat_map(|y| depth.row(y)[24..depth.width() - 24].to_vec()).collect();
         let errors = raw.iter().filter(|&&raw| raw != NO_DEPTH).map(|&raw| f64::from(raw) - self.raw(z));
         let (right, wrong): (Vec<f64>, Vec<f64>) = errors.partition(|error| error.abs() < STEPS_PER_PIXEL);
         let bias = right.iter().sum::<f64>() / right.len() as f64;
@@ -87,6 +91,19 @@ fn without_noise_depth_is_complete_and_right_to_the_step() {
 }
 
 #[test]
+fn a_halved_unit_finds_depth_as_the_full_one_does() {
+    let (full, halved) = (Bench::new(), Bench::of(Calibration::nominal().halved()));
+    for (z, noise) in [(0.6, 0.0), (1.2, 0.0), (4.0, 0.0), (9.0, 0.0), (1.2, 80.0), (4.0, 80.0)] {
+        let [full, found] = [&full, &halved].map(|bench| bench.find_wall(z, noise));
+        // The view's middle tile, the brightest, is larger, and there are fewer candidates to be mistaken for.
+        assert!(found.valid > full.valid - 0.01, "{z} m: {} valid, {}", full.valid, found.valid);
+        assert!(found.wrong < 0.01 && found.bias.abs() < 0.55, "{z} m: {} wrong, {} steps", found.wrong, found.bias);
+        // Without noise it is rounding alone, of whatever fraction the distance happens to have.
+        assert!(found.spread < 1.2 * full.spread.max(0.5), "{z} m: ± {} steps, {}", full.spread, found.spread);
+    }
+}
+
+#[test]
 fn sub_pixel_shifts_are_not_drawn_to_whole_pixels() {
     let bench = Bench::new();
     for eighths in 0..=8 {
@@ -95,7 +112,7 @@ fn sub_pixel_shifts_are_not_drawn_to_whole_pixels() {
         let infrared = bench.infrared(|_, _| z, DOT, AMBIENT, 0.0);
         let live = Live::of(Residual::of(infrared.pixels(), 640, 480));
         let (mut sum, mut count) = (0.0, 0.0);
-        let candidate = (5 + i16::from(eighths > 4) - NEAREST as i16) as u8;
+        let candidate = (5 + i16::from(eighths > 4) - SHIFTS.start as i16) as u8;
         let mut candidates = [NO_MATCH; 640];
         candidates[RADIUS..632].fill(candidate);
         let (mut row, mut shifts) = (Row::new(640), [NO_SHIFT; 640]);

@@ -7,6 +7,7 @@ use sunblind_estimator::image::InfraredImage;
 
 use super::*;
 use crate::runner::log::{RunFacts, SimulationCost};
+use crate::scenario::Quality;
 use crate::scenario::expect::{Expectation, Judged, Metrics, judge};
 use crate::world::plan::Plan;
 
@@ -37,6 +38,7 @@ fn simulated_log() -> RunLog {
     log.expectations = expected();
     log.facts = Some(RunFacts {
         seed: 42,
+        quality: Quality::Fast,
         duration: 10.5,
         path: 2.25,
         adapter: Some(HOSTILE.into()),
@@ -58,7 +60,7 @@ fn run_of(page: &str) -> Value {
 fn a_simulated_run_is_summarised_with_its_facts() {
     let (_, page, summary) = written(&simulated_log());
     assert_eq!((&summary["seed"], &summary["driver"]), (&Value::from(42), &Value::from("Mesa 25.0")));
-    assert_eq!(summary["adapter"], HOSTILE);
+    assert_eq!((&summary["adapter"], &summary["quality"]), (&Value::from(HOSTILE), &Value::from("fast")));
     assert_eq!((summary["duration_s"].as_f64(), summary["path_m"].as_f64()), (Some(10.5), Some(2.25)));
     assert!((summary["real_time_factor"].as_f64().unwrap() - 10.5 / 11.5).abs() < 1e-12);
     assert_eq!(summary["cpu_ms_per_frame"]["render"], 120.0);

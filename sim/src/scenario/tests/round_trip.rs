@@ -83,13 +83,13 @@ fn kinect() -> impl Strategy<Value = Kinect> {
     ];
     let numbers = (0.3..2.0, -27.0..27.0, 1.0..30.0, 0.0..2.0, 0.0..2.0, 0.0..0.5);
     let unit = (option::of(0.0..7200.0), option::of(0..i64::MAX as u64));
-    (numbers, unit, streams, exposure, any::<[bool; 5]>()).prop_map(
+    (numbers, unit, streams, exposure, any::<[bool; 6]>()).prop_map(
         |(
             (lens_height, tilt_deg, rate, stream_switch, residual_px, residual_deg),
             (warm_up, unit_seed),
             streams,
             infrared_exposure,
-            [noise, motion_blur, rolling_shutter, white_balance, truth_depth],
+            [noise, motion_blur, rolling_shutter, white_balance, truth_depth, full],
         )| Kinect {
             lens_height,
             tilt_deg,
@@ -104,6 +104,7 @@ fn kinect() -> impl Strategy<Value = Kinect> {
             warm_up,
             unit_seed,
             residual_px,
+            quality: if full { Quality::Full } else { Quality::Fast },
             residual_deg,
             truth_depth,
         },

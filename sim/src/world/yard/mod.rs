@@ -18,6 +18,7 @@
 mod houses;
 mod land;
 mod plants;
+mod street;
 mod things;
 
 use super::World;
@@ -154,10 +155,11 @@ fn walls_around(scene: &mut Scene, seed: u64) {
     wall(scene, "east wall", Surface::Stone, [[24.85, 6.0], [24.85, 20.0]], 0.3, 2.1);
     wall(scene, "west wall, south of the gate", Surface::Stone, [[0.15, 1.5], [0.15, 2.2]], 0.3, 2.1);
     wall(scene, "west wall, north of the gate", Surface::Stone, [[0.15, 5.6], [0.15, 6.5]], 0.3, 2.1);
-    fence(scene, "gate", [[0.1, 2.2], [0.1, 5.6]], 0.05, 2.0);
+    street::gate(scene, [[0.1, 2.2], [0.1, 5.6]]);
     hedge(scene, "south hedge, west part", [[16.0, 0.6], [20.6, 0.6]], 0.9, 2.3, seed);
     hedge(scene, "south hedge, east part", [[20.6, 0.6], [25.0, 0.6]], 0.9, 2.2, seed);
     hedge(scene, "east hedge", [[24.5, 1.0], [24.5, 6.0]], 0.9, 2.2, seed);
+    street::passing_car(scene);
     // Beyond: what closes the view above the walls.
     tree(scene, "lime beyond the garages", [5.0, -9.5], 9.5, seed);
     tree(scene, "second lime beyond the garages", [13.0, -10.0], 10.0, seed);
