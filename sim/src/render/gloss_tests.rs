@@ -91,23 +91,42 @@ fn light_and_eye_may_change_places() {
     }
 }
 
+/// Middles of so many steps from 0 to 1, in pairs.
+fn grid(steps: [usize; 2]) -> impl Iterator<Item = [f32; 2]> {
+    (0..steps[0] * steps[1]).map(move |index| {
+        let [row, column] = [index / steps[1], index % steps[1]];
+        [(row as f32 + 0.5) / steps[0] as f32, (column as f32 + 0.5) / steps[1] as f32]
+    })
+}
+
 /// What a white body with this boundary gives back of light from one direction: mirrored, and scattered.
 fn given_back(gpu: &Device, gloss: Gloss, light: Vec3) -> [f64; 2] {
-    // Finer steps towards the mirrored direction would be needed by smoother surfaces than are asked about.
-    const STEPS: [usize; 2] = [700, 700];
-    let step = [std::f32::consts::FRAC_PI_2 / STEPS[0] as f32, std::f32::consts::TAU / STEPS[1] as f32];
-    let eyes = (0..STEPS[0] * STEPS[1]).map(|index| {
-        let [row, column] = [index / STEPS[1], index % STEPS[1]].map(|at| at as f32 + 0.5);
-        direction(row * step[0], column * step[1])
-    });
+    const STEPS: [usize; 2] = [300, 300];
+    let count = (STEPS[0] * STEPS[1]) as f64;
+    // Directions by equal shares of cosine-weighted solid angle.
+    let eyes = grid(STEPS).map(|[share, turn]| direction(share.sqrt().asin(), turn * std::f32::consts::TAU));
     let pairs: Vec<[Vec3; 2]> = eyes.map(|eye| [light, eye]).collect();
-    let mut sums = [0.0; 2];
-    for ([glint, scattered, _], [_, eye]) in reflections(gpu, gloss, &pairs).into_iter().zip(&pairs) {
-        let solid_angle = f64::from((1.0 - eye.z * eye.z).sqrt() * step[0] * step[1]);
-        sums[0] += f64::from(glint * eye.z) * solid_angle;
-        sums[1] += f64::from(scattered * eye.z) / std::f64::consts::PI * solid_angle;
-    }
-    sums
+    let scattered = reflections(gpu, gloss, &pairs).iter().map(|answer| f64::from(answer[1])).sum::<f64>() / count;
+    // And by equal shares of the facets, as lobes may be narrow.
+    let alpha = f64::from(gloss.roughness);
+    let facets = grid(STEPS).map(|[share, turn]| {
+        let slope = gloss.roughness * (share / (1.0 - share)).sqrt();
+        direction(slope.atan(), turn * std::f32::consts::TAU)
+    });
+    let mirrored: Vec<([Vec3; 2], f64)> = facets
+        .filter_map(|facet| {
+            let eye = 2.0 * light.dot(facet) * facet - light;
+            let cosine = f64::from(facet.z);
+            let density =
+                cosine * (alpha / (cosine * cosine * (alpha * alpha - 1.0) + 1.0)).powi(2) / std::f64::consts::PI;
+            let weight = f64::from(4.0 * light.dot(facet) * eye.z) / density;
+            (light.dot(facet) > 0.0 && eye.z > 0.0).then_some(([light, eye], weight))
+        })
+        .collect();
+    let pairs: Vec<[Vec3; 2]> = mirrored.iter().map(|(pair, _)| *pair).collect();
+    let answers = reflections(gpu, gloss, &pairs);
+    let sum: f64 = answers.iter().zip(&mirrored).map(|(answer, (_, weight))| f64::from(answer[0]) * weight).sum();
+    [sum / count, scattered]
 }
 
 #[test]
