@@ -148,6 +148,7 @@ pub(super) fn colour_passes(
         Binding::Uniform(&daylight_uniform),
         Binding::Depth(&daylight.map.depth.view),
         Binding::Nearest(&samplers.nearest),
+        Binding::Numbers(&scene.glosses),
         Binding::OutputTexture(&luminance.view),
     ];
     let sensor = [
@@ -195,6 +196,7 @@ pub(super) fn infrared_passes(
         Binding::Nearest(&samplers.nearest),
         Binding::Uniform(&daylight_uniform),
         Binding::Depth(&daylight.map.depth.view),
+        Binding::Numbers(&scene.glosses),
         Binding::OutputTexture(&radiance.view),
     ];
     let sensor = [

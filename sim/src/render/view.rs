@@ -1,6 +1,6 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2, Vec3};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2};
 use nalgebra::Isometry3;
 use sunblind_estimator::camera::CameraModel;
 
@@ -113,7 +113,7 @@ impl View {
         (0..width * height).map(ray).map(|ray| [ray.x as f32, ray.y as f32]).collect()
     }
 
-    pub fn uniform(&self, frame: &CameraFrame, towards_sun: Vec3) -> uniforms::Camera {
+    pub fn uniform(&self, frame: &CameraFrame) -> uniforms::Camera {
         let model = &self.model;
         let world_from_camera = frame.sweep.middle();
         let camera_from_world = DMat4::from(world_from_camera.inverse());
@@ -139,7 +139,6 @@ impl View {
             vignetting: frame.vignetting,
             near: NEAR,
             padding: Vec2::ZERO,
-            towards_sun: towards_sun.extend(0.0),
         }
     }
 
@@ -185,6 +184,8 @@ pub(super) fn clip_from_camera(focal: Vec2, centre: Vec2, size: Vec2, near: f32)
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-use crate::world::{Material, Mesh, Object, TEXTURE_SIZE, World};
+use crate::world::{Gloss, Material, Mesh, Object, TEXTURE_SIZE, World};
 
 /// `world_from_infrared` of a Kinect at the origin, level, looking north.
 pub fn looking_north() -> DAffine3 {
@@ -74,7 +74,7 @@ impl Light {
 pub fn even(name: &str, rgb: [u8; 3], near_infrared: f32) -> Material {
     let [red, green, blue] = rgb;
     let albedo = vec![[red, green, blue, (near_infrared * 255.0).round() as u8]; TEXTURE_SIZE * TEXTURE_SIZE];
-    Material { name: name.into(), albedo }
+    Material { name: name.into(), albedo, gloss: Gloss::MATT }
 }
 
 /// Squares of two shades, `across` of them along the texture.
@@ -84,7 +84,7 @@ pub fn chequered(name: &str, dark: [u8; 4], bright: [u8; 4], across: usize) -> M
         let (x, y) = (index % TEXTURE_SIZE / square, index / TEXTURE_SIZE / square);
         if (x + y) % 2 == 0 { dark } else { bright }
     };
-    Material { name: name.into(), albedo: (0..TEXTURE_SIZE * TEXTURE_SIZE).map(texel).collect() }
+    Material { name: name.into(), albedo: (0..TEXTURE_SIZE * TEXTURE_SIZE).map(texel).collect(), gloss: Gloss::MATT }
 }
 
 /// A parallelogram from a corner along two edges (metres), facing along their cross product, `cells`² quads; the

@@ -4,6 +4,7 @@ mod building;
 mod canvas;
 mod fittings;
 mod fronts;
+pub mod gloss;
 mod glyph;
 mod noise;
 mod outdoor_ground;
@@ -379,7 +380,7 @@ pub fn materials(surfaces: &[Surface], seed: u64) -> Vec<Material> {
         .map(|&surface| {
             let Recipe { size, paint, .. } = surface.recipe();
             let seed = (seed as u32 ^ (seed >> 32) as u32).wrapping_add(1009 * surface as u32);
-            paint(size, seed).finish(&format!("{surface:?}"))
+            Material { gloss: surface.gloss(), ..paint(size, seed).finish(&format!("{surface:?}")) }
         })
         .collect()
 }
