@@ -20,14 +20,13 @@
 override SKY: bool = false;
 override SUN: bool = false;
 
-@compute @workgroup_size(64, 1)
-fn colour_light(@builtin(global_invocation_id) id: vec3u) {
+fn luminance_of_pixel(id: vec2u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
-    let texel = textureLoad(surfaces, id.xy, 0);
+    let texel = textureLoad(surfaces, id, 0);
     let surface = surface_of(texel);
-    let inverse_z = textureLoad(depths, id.xy, 0) / camera.near;
+    let inverse_z = textureLoad(depths, id, 0) / camera.near;
     let albedo = textureSampleLevel(albedos, repeating, surface.uv, surface.material, surface.level).rgb;
-    let direction = vec3f(direction_of_gbuffer_pixel(camera, vec2f(id.xy)), 1.0);
+    let direction = vec3f(direction_of_gbuffer_pixel(camera, vec2f(id)), 1.0);
     let gloss = gloss_of(glosses, surface.material);
     let normal = normal_of(texel);
     let towards_eye = -normalize(direction);
@@ -45,5 +44,12 @@ fn colour_light(@builtin(global_invocation_id) id: vec3u) {
     if SKY {
         seen = select(sky(daylight, direction).rgb, min(seen, vec3f(BRIGHTEST)), inverse_z > 0.0);
     }
-    textureStore(luminance, id.xy, vec4f(seen, inverse_z));
+    textureStore(luminance, id, vec4f(seen, inverse_z));
+}
+
+// Two rows: what all pixels have in common is fetched once for both.
+@compute @workgroup_size(64, 1)
+fn colour_light(@builtin(global_invocation_id) id: vec3u) {
+    luminance_of_pixel(vec2u(id.x, 2u * id.y));
+    luminance_of_pixel(vec2u(id.x, 2u * id.y + 1u));
 }

@@ -29,16 +29,15 @@ const MEAN_OF_PATTERN = 0.27;
 override SKY: bool = false;
 override SUN: bool = false;
 
-@compute @workgroup_size(64, 1)
-fn infrared_light(@builtin(global_invocation_id) id: vec3u) {
+fn radiance_of_pixel(id: vec2u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
-    let texel = textureLoad(surfaces, id.xy, 0);
+    let texel = textureLoad(surfaces, id, 0);
     let surface = surface_of(texel);
-    let inverse_z = textureLoad(depths, id.xy, 0) / camera.near;
+    let inverse_z = textureLoad(depths, id, 0) / camera.near;
     let albedo = textureSampleLevel(albedos, repeating, surface.uv, surface.material, surface.level).a;
 
     let normal = normal_of(texel);
-    let direction = direction_of_gbuffer_pixel(camera, vec2f(id.xy));
+    let direction = direction_of_gbuffer_pixel(camera, vec2f(id));
     let from_projector = direction - vec2f(projector.baseline * inverse_z, 0.0);
     // A plane across the view at depth z gets peak/z²; this surface as much as it faces the light.
     let facing_projector = max(-dot(normal, vec3f(from_projector, 1.0)), 0.0);
@@ -68,5 +67,12 @@ fn infrared_light(@builtin(global_invocation_id) id: vec3u) {
     if SKY {
         seen = select(vec3f(sky(daylight, view).w, 0.0, 0.0), seen, inverse_z > 0.0);
     }
-    textureStore(radiance, id.xy, vec4f(min(seen, vec3f(BRIGHTEST)), inverse_z));
+    textureStore(radiance, id, vec4f(min(seen, vec3f(BRIGHTEST)), inverse_z));
+}
+
+// Two rows: what all pixels have in common is fetched once for both.
+@compute @workgroup_size(64, 1)
+fn infrared_light(@builtin(global_invocation_id) id: vec3u) {
+    radiance_of_pixel(vec2u(id.x, 2u * id.y));
+    radiance_of_pixel(vec2u(id.x, 2u * id.y + 1u));
 }

@@ -63,8 +63,7 @@ fn pattern_light(direction: vec2f) -> f32 {
 // disappears.
 override TAPS: u32 = 1u;
 
-@compute @workgroup_size(64, 1)
-fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
+fn expose_pixel(id: vec2u) {
     let index = id.y * camera.size.x + id.x;
     let direction = directions[index];
     let middle = gbuffer_pixel(camera, direction) + 0.5;
@@ -85,11 +84,18 @@ fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
     let speckle = 1.0 + sensor.speckle_contrast * normal(hash(sensor.speckle_key + index));
     let dots = dot_peak * pattern_light(from_projector) * max(speckle, 0.0);
 
-    let light = ((ambient * sensor.bandwidth + glint) / f32(TAPS) + dots) * vignette(camera, vec2f(id.xy));
+    let light = ((ambient * sensor.bandwidth + glint) / f32(TAPS) + dots) * vignette(camera, vec2f(id));
     let electrons = light * sensor.electrons_per_radiance;
     let noise = normal(hash(sensor.noise_key + index)) * sqrt(sensor.shot_noise * electrons + sensor.read_variance);
     let number = (electrons + noise) * sensor.numbers_per_electron;
-    if id.x < camera.size.x {
+    if all(id < camera.size) {
         image[index] = u32(clamp(round(number), 0.0, LARGEST_NUMBER));
     }
+}
+
+// Two rows: what all pixels have in common is fetched once for both.
+@compute @workgroup_size(64, 1)
+fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
+    expose_pixel(vec2u(id.x, 2u * id.y));
+    expose_pixel(vec2u(id.x, 2u * id.y + 1u));
 }

@@ -93,7 +93,7 @@ pub(super) fn bind(
     (layout, group)
 }
 
-/// A compute shader, bound, and how many pixels it works on.
+/// A compute shader, bound, and how often it runs across and down.
 pub(super) struct Stage {
     /// One for each value of the shader's constant.
     pipelines: Vec<wgpu::ComputePipeline>,

@@ -71,9 +71,9 @@ impl RowPairs {
     /// Each row with the next.
     pub fn of(image: &Residual) -> Self {
         let mut pairs = vec![[0; 2 * STRIDE]; image.height - 1];
-        for (pair, [above, below]) in pairs.iter_mut().zip(image.rows.array_windows()) {
+        for (pair, rows) in pairs.iter_mut().zip(image.rows.windows(2)) {
             for (x, pixels) in pair.as_chunks_mut().0.iter_mut().enumerate() {
-                *pixels = [above[x], below[x]];
+                *pixels = [rows[0][x], rows[1][x]];
             }
         }
         Self(pairs)
