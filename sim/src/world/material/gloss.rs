@@ -22,7 +22,7 @@ pub const SHINIEST: f32 = 0.97;
 // a lamp's image is in such a thing.
 
 impl Gloss {
-    /// Mirrors nothing, as all that is porous, woven or rough does but for a little.
+    /// Mirrors nothing, as all that is porous, woven or rough does but for a little; unglazed tiles, walked upon, as well.
     pub const MATT: Self = Self { reflectance: 0.0, roughness: 1.0 };
     /// Two faces of a pane, n = 1.52. Literature: 0.08.
     pub const GLASS: Self = Self { reflectance: 0.08, roughness: SMOOTHEST };
@@ -35,8 +35,6 @@ impl Gloss {
     pub const STEEL: Self = Self { reflectance: 0.3, roughness: 0.25 };
     /// Satin lacquer on wood, n = 1.5.
     pub const VARNISH: Self = Self { reflectance: 0.04, roughness: 0.2 };
-    /// Glazed or polished tile, n = 1.5; walked upon.
-    pub const TILE: Self = Self { reflectance: 0.04, roughness: 0.12 };
     /// Enamel, moulded plastic, a whiteboard, n = 1.5.
     pub const ENAMEL: Self = Self { reflectance: 0.04, roughness: 0.15 };
     /// Powder coat and grained plastic, n = 1.5.
@@ -52,7 +50,6 @@ impl Surface {
             CarPaint | CarSide | CarFront | CarRear => Gloss::CAR_PAINT,
             Steel | Duct => Gloss::STEEL,
             DoorLeaf | Oak | Walnut | HouseDoor => Gloss::VARNISH,
-            FloorTile => Gloss::TILE,
             Radiator | Enamel | Opal | Whiteboard | WhiteBottle | BluePlastic | BinFront | ParkingSign => Gloss::ENAMEL,
             GreyCoat | DarkCoat | RedCoat | GreenCoat | GreyPlastic | BlackPlastic | CabinetFront | LockerFront
             | DrawerFront | RollerDoor | Resin | Copier | Computer => Gloss::SATIN,
