@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sky_does_not_darken_the_ground_and_a_facade_in_the_sun_fits() {
+    fn a_bright_sky_does_not_darken_the_ground_and_a_facade_twice_as_bright_fits() {
         let numbers: Vec<u16> = (0..3000).map(|index| if index < 600 { 1023 } else { 150 }).collect();
         let ground = 150.0 / 1023.0 / TARGET_WITHOUT_DEPTH;
         assert!((infrared_brightness(&numbers, &[NO_DEPTH; 3000]) - ground).abs() < 1e-9);
