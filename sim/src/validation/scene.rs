@@ -10,6 +10,14 @@ pub fn looking_north() -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y), DVec3::ZERO)
 }
 
+/// `world_from_camera` of one who looks in a direction, its rows level.
+pub fn looking(from: DVec3, towards: DVec3) -> DAffine3 {
+    let ahead = towards.normalize();
+    let right = ahead.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
+    // The camera's right, down and forward in the world.
+    DAffine3::from_mat3_translation(DMat3::from_cols(right, ahead.cross(right), ahead), from)
+}
+
 /// Irradiance of a surface: lux of white light, W m⁻² nm⁻¹ at 830 nm.
 #[derive(Clone, Copy, Debug)]
 pub struct Light {

@@ -71,7 +71,7 @@ fn half_shut(scene: &mut Scene, name: &str, [left, right]: [f32; 2]) {
 
 /// Stands out from a wall before the bend: without it the wall's end, which lights the bottom, would see the entrance.
 fn buttress(scene: &mut Scene, name: &str, [left, right]: [f32; 2]) {
-    scene.piece(&format!("tunnel, {name}"), Kind::Solid, Place { at: Vec3::ZERO, yaw: 0.0 }, |piece| {
+    scene.piece(&format!("tunnel, {name}"), Kind::Solid, Place::default(), |piece| {
         // In courses, as light is kept at corners.
         for course in 0..4 {
             let [bottom, top] = [course, course + 1].map(|edge| CEILING * edge as f32 / 4.0);
@@ -82,10 +82,8 @@ fn buttress(scene: &mut Scene, name: &str, [left, right]: [f32; 2]) {
 
 fn wall(scene: &mut Scene, name: &str, from: [f32; 2], to: [f32; 2]) {
     let [from, to] = [from, to].map(glam::Vec2::from);
-    let along = to - from;
-    let place = Place { at: from.extend(0.0), yaw: along.y.atan2(along.x) };
-    scene.piece(&format!("tunnel, {name}"), Kind::Solid, place, |piece| {
-        let [columns, rows] = [along.length(), CEILING].map(|end| cuts_no_longer_than(EDGE, &[0.0, end]));
+    scene.piece(&format!("tunnel, {name}"), Kind::Solid, Place::along(from, to), |piece| {
+        let [columns, rows] = [from.distance(to), CEILING].map(|end| cuts_no_longer_than(EDGE, &[0.0, end]));
         let mapping = piece.mapping(Surface::SootyConcrete);
         let corner = vec3(0.0, 0.0, CEILING);
         piece.mesh(
