@@ -17,9 +17,11 @@ struct Vertex {
 struct ColourCorner {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
-    // R, G, B in LUX_PER_UNIT; cosine to the sun.
-    @location(1) light: vec4f,
-    @location(2) @interpolate(flat) material: u32,
+    // Across the camera's frame.
+    @location(1) normal: vec2f,
+    // R, G, B in LUX_PER_UNIT.
+    @location(2) light: vec3f,
+    @location(3) @interpolate(flat) material: u32,
 }
 
 struct InfraredCorner {
@@ -34,8 +36,8 @@ struct InfraredCorner {
 @vertex
 fn colour_vertex(vertex: Vertex) -> ColourCorner {
     let position = camera.clip_from_world * vec4f(vertex.position, 1.0);
-    let light = vec4f(vertex.irradiance.rgb / LUX_PER_UNIT, dot(vertex.normal.xyz, camera.towards_sun.xyz));
-    return ColourCorner(position, vertex.uv, light, vertex.material);
+    let normal = (camera.camera_from_world * vec4f(vertex.normal.xyz, 0.0)).xy;
+    return ColourCorner(position, vertex.uv, normal, vertex.irradiance.rgb / LUX_PER_UNIT, vertex.material);
 }
 
 @vertex
@@ -62,11 +64,11 @@ fn what(uv: vec2f, material: u32, light: f32) -> u32 {
 fn colour_surface(corner: ColourCorner) -> @location(0) vec4u {
     let light = corner.light;
     let what = what(corner.uv, corner.material, light.z);
-    return vec4u(packed(corner.uv, 65536.0), what, pack2x16float(light.xy), pack2x16float(light.ww));
+    return vec4u(packed(corner.uv, 65536.0), what, pack2x16float(light.xy), packed(corner.normal, 32767.0));
 }
 
 @fragment
 fn infrared_surface(corner: InfraredCorner) -> @location(0) vec4u {
     let what = what(corner.uv, corner.material, corner.irradiance);
-    return vec4u(packed(corner.uv, 65536.0), what, packed(corner.normal, 32767.0), 0u);
+    return vec4u(packed(corner.uv, 65536.0), what, 0u, packed(corner.normal, 32767.0));
 }

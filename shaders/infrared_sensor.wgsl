@@ -63,19 +63,20 @@ fn pattern_light(direction: vec2f) -> f32 {
 // disappears.
 override TAPS: u32 = 1u;
 
-@compute @workgroup_size(64, 1)
-fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
+fn expose_pixel(id: vec2u) {
     let index = id.y * camera.size.x + id.x;
     let direction = directions[index];
     let middle = gbuffer_pixel(camera, direction) + 0.5;
     let motion = image_motion(camera, direction, textureLoad(radiance, vec2u(middle), 0).w);
     var ambient = 0.0;
+    var glint = 0.0;
     // Dots stay where they are while the surface under them passes, and only shift with its depth.
     var dot_peak = 0.0;
     for (var tap = 0u; tap < TAPS; tap++) {
         let seen = middle - motion * tap_instant(camera, id.y, tap, TAPS);
         let light = textureSampleLevel(radiance, bilinear, seen / camera.gbuffer_size, 0.0);
         ambient += light.x;
+        glint += light.z;
         dot_peak = select(dot_peak, light.y, tap == TAPS / 2u);
     }
     let at = middle - motion * row_instant(camera, id.y);
@@ -83,11 +84,18 @@ fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
     let speckle = 1.0 + sensor.speckle_contrast * normal(hash(sensor.speckle_key + index));
     let dots = dot_peak * pattern_light(from_projector) * max(speckle, 0.0);
 
-    let light = (ambient * sensor.bandwidth / f32(TAPS) + dots) * vignette(camera, vec2f(id.xy));
+    let light = ((ambient * sensor.bandwidth + glint) / f32(TAPS) + dots) * vignette(camera, vec2f(id));
     let electrons = light * sensor.electrons_per_radiance;
     let noise = normal(hash(sensor.noise_key + index)) * sqrt(sensor.shot_noise * electrons + sensor.read_variance);
     let number = (electrons + noise) * sensor.numbers_per_electron;
-    if id.x < camera.size.x {
+    if all(id < camera.size) {
         image[index] = u32(clamp(round(number), 0.0, LARGEST_NUMBER));
     }
+}
+
+// Two rows: what all pixels have in common is fetched once for both.
+@compute @workgroup_size(64, 1)
+fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
+    expose_pixel(vec2u(id.x, 2u * id.y));
+    expose_pixel(vec2u(id.x, 2u * id.y + 1u));
 }

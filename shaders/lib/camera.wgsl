@@ -22,8 +22,6 @@ struct Camera {
     // Of the G-buffer's depth, near/z; metres.
     near: f32,
     padding: vec2f,
-    // Unit vector in the world's frame, and nothing.
-    towards_sun: vec4f,
 }
 
 // The G-buffer's pixel in a direction.

@@ -19,7 +19,8 @@ fn packed(numbers: vec2f, scale: f32) -> u32 {
     return (whole.x & 0xffffu) | (whole.y << 16u);
 }
 
-// First component: the surface. Second, upper half: its material and mip level. The rest is the camera's.
+// First component: the surface. Second, upper half: its material and mip level. Fourth: its normal. The rest is the
+// camera's.
 fn surface_of(texel: vec4u) -> Surface {
     let what = texel.y >> 16u;
     // Signed, as that is what processors convert.
@@ -32,19 +33,14 @@ fn irradiance_of(texel: vec4u) -> vec3f {
     return vec3f(unpack2x16float(texel.z), unpack2x16float(texel.y).x);
 }
 
-// Colour: cosine between the normal and the way to the sun.
-fn sun_cosine_of(texel: vec4u) -> f32 {
-    return unpack2x16float(texel.w).x;
-}
-
 // Infrared: spectral irradiance at 830 nm, W m⁻² nm⁻¹.
 fn near_infrared_of(texel: vec4u) -> f32 {
     return unpack2x16float(texel.y).x;
 }
 
-// Infrared: the normal in the camera's frame, which faces the camera.
+// The normal in the camera's frame, which faces the camera.
 fn normal_of(texel: vec4u) -> vec3f {
-    let across = vec2f(vec2i(vec2u(texel.z << 16u, texel.z)) >> vec2u(16u)) * (1.0 / 32767.0);
+    let across = vec2f(vec2i(vec2u(texel.w << 16u, texel.w)) >> vec2u(16u)) * (1.0 / 32767.0);
     return vec3f(across, -sqrt(max(1.0 - dot(across, across), 0.0)));
 }
 

@@ -8,7 +8,6 @@ use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use glam::DAffine3;
-use nalgebra::{Isometry3, Vector3};
 use sunblind_sim::kinect::calibration::Calibration;
 use sunblind_sim::kinect::matcher::Matcher;
 use sunblind_sim::kinect::projector::Projector;
@@ -175,12 +174,7 @@ fn along_the_way(scenario: &Scenario, world: &World, count: usize) -> Vec<Sweep>
             let place = path.at(path.length() * (index as f64 + 0.5) / count as f64);
             let (x, y) = (place.position.x, place.position.y);
             let standing = world.ground.standing(x, y, place.heading, robot.wheelbase() / 2.0);
-            let half = 0.5 * FRAME_INTERVAL * scenario.path.speed;
-            let moved = |way: f64| {
-                let motion = Isometry3::new(way * Vector3::x(), Vector3::z() * (place.curvature * way));
-                standing * motion * robot_from_infrared
-            };
-            Sweep::between(&moved(-half), &moved(half))
+            Sweep::driving(&standing, &robot_from_infrared, [scenario.path.speed, place.curvature], FRAME_INTERVAL)
         })
         .collect()
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use image::codecs::jpeg::JpegEncoder;
 use image::{GrayImage, ImageBuffer, ImageResult, Luma, RgbImage};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Isometry3;
 use sunblind_estimator::guidance::{self, PathPoint};
 use sunblind_estimator::image::Image;
 
@@ -81,8 +81,14 @@ const SHEET_QUALITY: u8 = 80;
 
 /// Nothing beside sheets but folders with pictures.
 fn is_pictures(folder: &Path) -> bool {
-    let is_sheet = |path: &Path| path.ends_with(SHEET) || path.extension().is_some_and(|kind| kind == "jpg");
-    folder.join(SHEET).is_file() && holds_only(folder, |path| is_sheet(path) || is_instants(path))
+    folder.join(SHEET).is_file()
+        && holds_only(folder, |path| path.ends_with(SHEET) || is_instants_sheet(path) || is_instants(path))
+}
+
+/// One instant of several scenarios: 20s.jpg, as it is called here and by nobody's camera.
+fn is_instants_sheet(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str());
+    name.and_then(|name| name.strip_suffix("s.jpg")).is_some_and(|at| seconds(at).is_ok())
 }
 
 /// One instant's pictures, or a scenario's: a folder with nothing but those.
@@ -227,16 +233,8 @@ impl<'a> View<'a> {
     /// the path.
     fn sweep(&self, place: &PathPoint) -> Sweep {
         let world_from_robot = self.ground.standing(place.position.x, place.position.y, place.heading, self.reach);
-        let speed = self.shot.scenario.path.speed;
-        let moved = |seconds: f64| {
-            let turned = speed * place.curvature * seconds;
-            // Along the chord: an arc's, of so small an angle.
-            let (sin, cos) = (0.5 * turned).sin_cos();
-            let chord = speed * seconds * Vector3::new(cos, sin, 0.0);
-            let motion = Isometry3::new(chord, Vector3::z() * turned);
-            world_from_robot * motion * self.robot_from_infrared
-        };
-        Sweep::between(&moved(-0.5 * FRAME_INTERVAL), &moved(0.5 * FRAME_INTERVAL))
+        let motion = [self.shot.scenario.path.speed, place.curvature];
+        Sweep::driving(&world_from_robot, &self.robot_from_infrared, motion, FRAME_INTERVAL)
     }
 }
 
@@ -298,7 +296,7 @@ mod tests {
             (104_321.0, "100 klx"),
             (12_600.0, "13 klx"),
             (843.0, "840 lx"),
-            (3.14, "3.1 lx"),
+            (3.12, "3.1 lx"),
             (0.0512, "0.051 lx"),
             (0.0, "0 lx"),
         ] {
@@ -325,6 +323,10 @@ mod tests {
         std::fs::write(instant.join("true_depth.png"), "").unwrap();
         std::fs::write(folder.path().join("20s.jpg"), "").unwrap();
         assert!(is_pictures(folder.path()));
+        let holiday = folder.path().join("holidays.jpg");
+        std::fs::write(&holiday, "").unwrap();
+        assert!(!is_pictures(folder.path()));
+        std::fs::remove_file(holiday).unwrap();
         std::fs::write(folder.path().join("night/thesis.tex"), "").unwrap();
         assert!(!is_pictures(folder.path()));
     }

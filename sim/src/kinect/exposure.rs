@@ -13,12 +13,18 @@ use super::sensors::{Exposure, colour, infrared};
 const TIME_CONSTANT: f64 = 0.5;
 /// From an image to the first that heeds it, seconds: three frames of 30 Hz. Estimate, two to five are plausible.
 const DEAD_TIME: f64 = 0.1;
-/// Share of the infrared image's pixels that may exceed the target below; some 2 % are dots' peaks.
-const INFRARED_ABOVE: f64 = 0.02;
+/// Share of an infrared image's pixels with depth that may exceed the target below; some 2 % are dots' peaks.
+const ABOVE_WITH_DEPTH: f64 = 0.02;
 /// Brightness aimed at for the brightest of the rest, of full scale. A guess, well below saturation.
-const INFRARED_TARGET: f64 = 0.6;
+const TARGET_WITH_DEPTH: f64 = 0.6;
 /// Share of pixels with depth from which on only they are metered. A guess.
 const LEAST_WITH_DEPTH: f64 = 0.05;
+/// Share of all pixels that may exceed the target below, where too few have depth: a sky or a window, four times as
+/// bright as what one drives on, fills a fifth of the view, and nothing is to be seen there. A guess.
+const ABOVE_WITHOUT_DEPTH: f64 = 0.25;
+/// Brightness aimed at for the brightest of the rest, of full scale. A guess: what is twice as bright still fits, as
+/// concrete in the sun beside asphalt.
+const TARGET_WITHOUT_DEPTH: f64 = 0.4;
 /// Most that one frame's metering is believed, in either direction: saturation hides how much too bright it was.
 const LARGEST_CORRECTION: f64 = 8.0;
 
@@ -117,13 +123,15 @@ impl AutoExposure {
 /// darken the dots. Of all pixels where too few have any.
 pub(super) fn infrared_brightness(pixels: &[u16], depth: &[u16]) -> f64 {
     let sampled = || pixels.iter().zip(depth).step_by(STRIDE);
-    let mut numbers: Vec<u16> = sampled().filter(|(_, depth)| **depth != NO_DEPTH).map(|(number, _)| *number).collect();
-    if (numbers.len() as f64) < LEAST_WITH_DEPTH * sampled().len() as f64 {
-        numbers = sampled().map(|(number, _)| *number).collect();
-    }
-    let rank = ((1.0 - INFRARED_ABOVE) * (numbers.len() - 1) as f64) as usize;
+    let with_depth: Vec<u16> = sampled().filter(|(_, depth)| **depth != NO_DEPTH).map(|(number, _)| *number).collect();
+    let (mut numbers, above, target) = if with_depth.len() as f64 >= LEAST_WITH_DEPTH * sampled().len() as f64 {
+        (with_depth, ABOVE_WITH_DEPTH, TARGET_WITH_DEPTH)
+    } else {
+        (sampled().map(|(number, _)| *number).collect(), ABOVE_WITHOUT_DEPTH, TARGET_WITHOUT_DEPTH)
+    };
+    let rank = ((1.0 - above) * (numbers.len() - 1) as f64) as usize;
     let (_, number, _) = numbers.select_nth_unstable(rank);
-    f64::from(*number) / 1023.0 / INFRARED_TARGET
+    f64::from(*number) / 1023.0 / target
 }
 
 #[cfg(test)]
@@ -166,9 +174,19 @@ mod tests {
         // A third of the view is a window without depth.
         let pixel = |index: usize| if index.is_multiple_of(3) { (1000, NO_DEPTH) } else { (200, 800) };
         let (numbers, depth): (Vec<u16>, Vec<u16>) = (0..3000).map(pixel).unzip();
-        let dots = 200.0 / 1023.0 / INFRARED_TARGET;
+        let dots = 200.0 / 1023.0 / TARGET_WITH_DEPTH;
         assert!((infrared_brightness(&numbers, &depth) - dots).abs() < 1e-9);
         assert!(infrared_brightness(&numbers, &[NO_DEPTH; 3000]) > 1.5, "where nothing has depth, all of it counts");
+    }
+
+    #[test]
+    fn a_bright_sky_does_not_darken_the_ground_and_a_facade_twice_as_bright_fits() {
+        let numbers: Vec<u16> = (0..3000).map(|index| if index < 600 { 1023 } else { 150 }).collect();
+        let ground = 150.0 / 1023.0 / TARGET_WITHOUT_DEPTH;
+        assert!((infrared_brightness(&numbers, &[NO_DEPTH; 3000]) - ground).abs() < 1e-9);
+        // Half of the view is sunlit, twice as bright as the rest.
+        let numbers: Vec<u16> = (0..3000).map(|index| if index < 1500 { 600 } else { 300 }).collect();
+        assert!(600.0 / infrared_brightness(&numbers, &[NO_DEPTH; 3000]) < 0.5 * 1023.0);
     }
 
     /// Exposure products, relative to the first, of the images after the light has doubled.

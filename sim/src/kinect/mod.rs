@@ -292,9 +292,8 @@ fn pose_key(pose: &DAffine3) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DMat3, DVec3};
-
     use super::*;
+    use crate::validation::scene::looking;
     use crate::world::laboratory::{laboratory, loop_waypoints};
 
     #[test]
@@ -311,8 +310,7 @@ mod tests {
         for (at, pair) in way.windows(2).enumerate() {
             let [from, to] = [pair[0], pair[1]].map(glam::DVec2::from);
             let (ahead, eye) = ((to - from).normalize().extend(0.0), from.extend(0.6));
-            let axes = DMat3::from_cols(ahead.cross(DVec3::Z), DVec3::NEG_Z, ahead);
-            let sweep = Sweep::still(DAffine3::from_mat3_translation(axes, eye));
+            let sweep = Sweep::still(looking(eye, ahead));
             let most_of = |kinect: &Kinect| kinect.triangles_drawn(&sweep).into_iter().max().unwrap_or(0);
             most = most.max(most_of(&culling));
             most_of_all = most_of_all.max(most_of(&drawing_all));

@@ -8,8 +8,8 @@ use super::pattern::{TILE_HEIGHT, TILE_WIDTH, TILES, Tile};
 
 /// Infrared pixel in which the dots' size and pitch are published: a tangent, at 580 px.
 const PIXEL: f64 = 1.0 / 580.0;
-/// Tangent from one grid position to the next in the pattern's middle, of units that are sold: 1.05 px. A guess: published as about 1.0 px,
-/// and with the pincushion below the whole pattern spans the published 63°×49°.
+/// Tangent from one grid position to the next in the pattern's middle, of units that are sold: 1.05 px. A guess:
+/// published as about 1.0 px, and with the pincushion below the whole pattern spans the published 63°×49°.
 pub const PITCH: f64 = 1.05 * PIXEL;
 /// Pincushion of the projector's lens, on r². A guess within 0.1 to 0.2.
 pub const PINCUSHION: f64 = 0.15;

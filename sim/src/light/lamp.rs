@@ -4,6 +4,8 @@ use super::{Bands, coloured};
 
 /// Groups whose names begin so are a passing car's headlights at one place after another: dark unless they are named.
 pub const HEADLIGHTS: &str = "headlights";
+/// At how many places.
+pub const CAR_PLACES: usize = 4;
 
 /// The group of the lamps that a car has at the `index`th place.
 pub fn headlights(index: usize) -> String {

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 pub use daylight::daylight;
-pub use lamp::{HEADLIGHTS, LampKind, headlights};
+pub use lamp::{CAR_PLACES, HEADLIGHTS, LampKind, headlights};
 pub use moon::moonlight;
 pub use sky::Sky;
 pub use sun::{BadDate, Clock, Place};

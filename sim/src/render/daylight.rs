@@ -70,11 +70,6 @@ impl Daylight {
         usize::from(self.open && self.light.beam.shines())
     }
 
-    /// Unit vector towards the sun, world frame.
-    pub fn towards(&self) -> Vec3 {
-        self.light.beam.towards
-    }
-
     /// Has other light from now on.
     pub fn change(&mut self, gpu: &Device, scene: &Scene, light: &LightState) {
         if !self.open {

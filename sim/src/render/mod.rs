@@ -9,6 +9,8 @@
 mod bounds;
 mod daylight;
 mod device;
+#[cfg(test)]
+mod gloss_tests;
 mod occluder;
 mod passes;
 mod raster;

@@ -148,6 +148,7 @@ pub(super) fn colour_passes(
         Binding::Uniform(&daylight_uniform),
         Binding::Depth(&daylight.map.depth.view),
         Binding::Nearest(&samplers.nearest),
+        Binding::Numbers(&scene.glosses),
         Binding::OutputTexture(&luminance.view),
     ];
     let sensor = [
@@ -159,7 +160,7 @@ pub(super) fn colour_passes(
         Binding::Output(&image),
     ];
     let quads = [optics.colour.width, optics.colour.height].map(|size| size.div_ceil(2) as u32);
-    let light = light_stage(gpu, "colour_light", size, &light, daylight);
+    let light = light_stage(gpu, "colour_light", in_pairs(size), &light, daylight);
     let sensor = sensor_stage(gpu, "colour_sensor", quads, &sensor);
     CameraPasses { view, uniform, sensor_uniform, daylight_uniform, gbuffer, light, sensor, image }
 }
@@ -195,6 +196,7 @@ pub(super) fn infrared_passes(
         Binding::Nearest(&samplers.nearest),
         Binding::Uniform(&daylight_uniform),
         Binding::Depth(&daylight.map.depth.view),
+        Binding::Numbers(&scene.glosses),
         Binding::OutputTexture(&radiance.view),
     ];
     let sensor = [
@@ -211,9 +213,14 @@ pub(super) fn infrared_passes(
         Binding::Output(&image),
     ];
     let pixels = [optics.infrared.width as u32, optics.infrared.height as u32];
-    let light = light_stage(gpu, "infrared_light", size, &light, daylight);
-    let sensor = sensor_stage(gpu, "infrared_sensor", pixels, &sensor);
+    let light = light_stage(gpu, "infrared_light", in_pairs(size), &light, daylight);
+    let sensor = sensor_stage(gpu, "infrared_sensor", in_pairs(pixels), &sensor);
     CameraPasses { view, uniform, sensor_uniform, daylight_uniform, gbuffer, light, sensor, image }
+}
+
+/// How often a shader runs across and down that works on two rows at a time.
+fn in_pairs([width, height]: [u32; 2]) -> [u32; 2] {
+    [width, height.div_ceil(2)]
 }
 
 /// A light's shader, compiled for every [variant](Daylight::variant) of the daylight that the world can have.

@@ -205,8 +205,8 @@ impl Renderer {
     /// Tells the device where everything is.
     fn prepare(&self, frame: &Frame) -> Plan {
         let write = |buffer: &wgpu::Buffer, bytes: &[u8]| self.gpu.queue.write_buffer(buffer, 0, bytes);
-        let colour = self.colour.view.uniform(&frame.colour, self.daylight.towards());
-        let infrared = self.infrared.view.uniform(&frame.infrared, self.daylight.towards());
+        let colour = self.colour.view.uniform(&frame.colour);
+        let infrared = self.infrared.view.uniform(&frame.infrared);
         let world_from_projector = frame.infrared.sweep.middle() * self.infrared_from_projector;
         let turned = Projector { toe_in: self.projector.toe_in + frame.projector_turn, ..self.projector };
         let centre = turned.map_size / 2.0 + Vec2::new(turned.toe_in * turned.map_focal, 0.0);

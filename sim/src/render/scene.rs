@@ -10,7 +10,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use super::bounds::{Bounds, frustum};
 use super::device::{Device, RenderError};
 use super::occluder::{Occluder, Shadow, eye};
-use super::texture::albedo_array;
+use super::texture::{albedo_array, gloss_row};
 use crate::light::{Bands, LightState, each};
 use crate::world::transfer::{Transfer, Weights};
 use crate::world::{Mesh, World};
@@ -22,6 +22,7 @@ pub(super) struct Scene {
     irradiances: Irradiances,
     indices: wgpu::Buffer,
     pub albedos: wgpu::TextureView,
+    pub glosses: wgpu::TextureView,
     parts: Vec<Part>,
     occluders: Vec<Occluder>,
 }
@@ -98,6 +99,7 @@ impl Scene {
             irradiances,
             indices: buffer("indices", bytemuck::cast_slice(&geometry.indices), wgpu::BufferUsages::INDEX),
             albedos: albedo_array(gpu, &world.materials)?,
+            glosses: gloss_row(gpu, &world.materials),
             parts: geometry.parts,
             occluders: world.objects.iter().flat_map(|object| Occluder::all_of(&object.mesh)).collect(),
         })

@@ -11,6 +11,7 @@ macro_rules! sources {
 sources![
     "lib/camera",
     "lib/daylight",
+    "lib/gloss",
     "lib/noise",
     "lib/projector",
     "lib/surface",

@@ -13,6 +13,8 @@ pub(super) enum Binding<'a> {
     Input(&'a wgpu::Buffer),
     /// `texture_2d<f32>` of a format that can be filtered.
     Texture(&'a wgpu::TextureView),
+    /// `texture_2d<f32>` that is only loaded from.
+    Numbers(&'a wgpu::TextureView),
     /// `texture_2d<u32>`.
     Integers(&'a wgpu::TextureView),
     /// `texture_2d_array<f32>`.
@@ -42,6 +44,7 @@ impl<'a> Binding<'a> {
             Self::Input(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
             Self::Output(_) => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
             Self::Texture(_) => texture(float, flat),
+            Self::Numbers(_) => texture(wgpu::TextureSampleType::Float { filterable: false }, flat),
             Self::Integers(_) => texture(wgpu::TextureSampleType::Uint, flat),
             Self::TextureArray(_) => texture(float, layered),
             Self::Depth(_) => texture(wgpu::TextureSampleType::Depth, flat),
@@ -59,6 +62,7 @@ impl<'a> Binding<'a> {
         match self {
             Self::Uniform(buffer) | Self::Input(buffer) | Self::Output(buffer) => buffer.as_entire_binding(),
             Self::Texture(view)
+            | Self::Numbers(view)
             | Self::Integers(view)
             | Self::TextureArray(view)
             | Self::Depth(view)
@@ -89,7 +93,7 @@ pub(super) fn bind(
     (layout, group)
 }
 
-/// A compute shader, bound, and how many pixels it works on.
+/// A compute shader, bound, and how often it runs across and down.
 pub(super) struct Stage {
     /// One for each value of the shader's constant.
     pipelines: Vec<wgpu::ComputePipeline>,

@@ -1,9 +1,11 @@
 //! Albedo textures with their mip levels, one array layer a material.
 
+use std::iter;
+
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 use super::device::{Device, RenderError};
-use crate::world::{Material, TEXTURE_SIZE};
+use crate::world::{Gloss, Material, SHINIEST, SMOOTHEST, TEXTURE_SIZE};
 
 const LEVELS: u32 = TEXTURE_SIZE.ilog2() + 1;
 
@@ -42,6 +44,26 @@ pub(super) fn albedo_array(gpu: &Device, materials: &[Material]) -> Result<wgpu:
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     }))
+}
+
+/// How each material mirrors, in a row: reflectance, roughness. After them the white one's.
+pub(super) fn gloss_row(gpu: &Device, materials: &[Material]) -> wgpu::TextureView {
+    let glosses = materials.iter().map(|material| material.gloss).chain(iter::once(Gloss::MATT));
+    let texels: Vec<[f32; 2]> =
+        glosses.map(|gloss| [gloss.reflectance.min(SHINIEST), gloss.roughness.max(SMOOTHEST)]).collect();
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("glosses"),
+        size: wgpu::Extent3d { width: texels.len() as u32, height: 1, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rg32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let bytes = bytemuck::cast_slice(&texels);
+    let texture = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes);
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 fn append_with_mips(texels: &mut Vec<u8>, albedo: &[[u8; 4]]) {

@@ -21,7 +21,6 @@ pub(super) struct Camera {
     pub vignetting: f32,
     pub near: f32,
     pub padding: Vec2,
-    pub towards_sun: Vec4,
 }
 
 /// `Daylight` in `shaders/lib/daylight.wgsl`.
@@ -132,7 +131,7 @@ mod tests {
     fn layouts_are_those_of_the_shaders() {
         assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, start_from_camera,
             end_from_camera, focal, centre, margin, gbuffer_size, size, exposure, readout,
-            vignetting, near, padding, towards_sun);
+            vignetting, near, padding);
         assert_same_layout!("lib/daylight", Daylight: map_from_camera, beam, level, rise, glow, ground, towards,
             map_size, up, map_step);
         assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,

@@ -1,7 +1,7 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2, Vec3};
-use nalgebra::Isometry3;
+use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2};
+use nalgebra::{Isometry3, Vector3};
 use sunblind_estimator::camera::CameraModel;
 
 use super::uniforms;
@@ -31,6 +31,24 @@ impl Sweep {
     /// From one pose to another, in the estimator's mathematics.
     pub fn between(start: &Isometry3<f64>, end: &Isometry3<f64>) -> Self {
         Self { start: affine(start), end: affine(end) }
+    }
+
+    /// On a robot that drives an arc, over the `seconds` in whose middle it stands at `world_from_robot`. Speed in m/s,
+    /// curvature in 1/m.
+    pub fn driving(
+        world_from_robot: &Isometry3<f64>,
+        robot_from_camera: &Isometry3<f64>,
+        [speed, curvature]: [f64; 2],
+        seconds: f64,
+    ) -> Self {
+        let moved = |seconds: f64| {
+            let turned = speed * curvature * seconds;
+            // Along the chord: an arc's, of so small an angle.
+            let (sin, cos) = (0.5 * turned).sin_cos();
+            let chord = speed * seconds * Vector3::new(cos, sin, 0.0);
+            world_from_robot * Isometry3::new(chord, Vector3::z() * turned) * robot_from_camera
+        };
+        Self::between(&moved(-0.5 * seconds), &moved(0.5 * seconds))
     }
 
     /// At rest.
@@ -113,7 +131,7 @@ impl View {
         (0..width * height).map(ray).map(|ray| [ray.x as f32, ray.y as f32]).collect()
     }
 
-    pub fn uniform(&self, frame: &CameraFrame, towards_sun: Vec3) -> uniforms::Camera {
+    pub fn uniform(&self, frame: &CameraFrame) -> uniforms::Camera {
         let model = &self.model;
         let world_from_camera = frame.sweep.middle();
         let camera_from_world = DMat4::from(world_from_camera.inverse());
@@ -139,7 +157,6 @@ impl View {
             vignetting: frame.vignetting,
             near: NEAR,
             padding: Vec2::ZERO,
-            towards_sun: towards_sun.extend(0.0),
         }
     }
 
@@ -185,6 +202,8 @@ pub(super) fn clip_from_camera(focal: Vec2, centre: Vec2, size: Vec2, near: f32)
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     #[test]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::Fault;
 use super::check::{number, optional};
 use super::error::nearest;
-use crate::light::{self, BadDate, Clock, HEADLIGHTS, LightState, daylight, headlights, moonlight};
+use crate::light::{self, BadDate, CAR_PLACES, Clock, HEADLIGHTS, LightState, daylight, headlights, moonlight};
 use crate::world::{WINDOWS, World};
 
 /// Direct sun on a window is some 30 times an overcast day.
@@ -21,8 +21,6 @@ const BRIGHTNESS: std::ops::RangeInclusive<f64> = 0.0..=10.0;
 /// An hour and a day: no run is longer.
 const SECONDS: std::ops::RangeInclusive<f64> = 0.0..=90_000.0;
 
-/// At how many places a passing car shines into the yard.
-const CAR_PLACES: usize = 4;
 /// Seconds that a passing car takes from one of its places to the next: 4 to 6 m, at some 20 km/h through a bend.
 const BETWEEN_PLACES: f64 = 0.8;
 

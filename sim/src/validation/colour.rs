@@ -8,7 +8,7 @@ use super::statistics::mean;
 use super::{Effort, Finding, Findings};
 use crate::render::RenderError;
 use crate::world::material::substance::{Substance, encoded};
-use crate::world::{Material, TEXTURE_SIZE};
+use crate::world::{Gloss, Material, TEXTURE_SIZE};
 
 // Measured spectra (ECOSTRESS, SLUM); red at 650 nm, and 830 nm.
 const GRASS: Substance = [0.05, 0.11, 0.04, 0.49];
@@ -27,7 +27,7 @@ fn beside_grey(surface: Substance) -> Result<Seen, RenderError> {
     let material = |name: &str, [red, green, blue, infrared]: Substance| {
         let byte = |value: f32| (255.0 * value).round() as u8;
         let texel = [byte(encoded(red)), byte(encoded(green)), byte(encoded(blue)), byte(infrared)];
-        Material { name: name.into(), albedo: vec![texel; TEXTURE_SIZE * TEXTURE_SIZE] }
+        Material { name: name.into(), albedo: vec![texel; TEXTURE_SIZE * TEXTURE_SIZE], gloss: Gloss::MATT }
     };
     let objects = vec![object("surface", half(-2.0), 0), object("grey", half(0.0), 1)];
     Bench::new(&world("panels", objects, vec![material("surface", surface), material("grey", GREY)]))?.look()

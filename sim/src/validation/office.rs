@@ -1,8 +1,9 @@
 //! Depth of a furnished place: the laboratory as a hand holds the device before its desks, and as a robot drives through.
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 use super::bench::Bench;
+use super::scene::looking;
 use super::statistics::mean;
 use super::{Effort, Finding, Findings};
 use crate::render::RenderError;
@@ -43,14 +44,6 @@ pub(super) fn holes(effort: Effort) -> Findings {
     ])
 }
 
-/// `world_from_infrared` at an eye, level but for its pitch.
-fn looking(eye: DVec3, at: DVec3) -> DAffine3 {
-    let ahead = (at - eye).normalize();
-    let right = ahead.cross(DVec3::Z).normalize();
-    // The camera's right, down and forward.
-    DAffine3::from_mat3_translation(DMat3::from_cols(right, ahead.cross(right), ahead), eye)
-}
-
 /// As [`laboratory`] names them.
 fn is_worktop(object: &Object) -> bool {
     let endings = ["desk, Walnut", "desk, Oak", "table, Walnut", ", Resin"];
@@ -71,7 +64,7 @@ fn before_desks(world: &World) -> Vec<DAffine3> {
                 let stands_on = things.first(eye, DVec3::NEG_Z, 2.0 * HELD).map(|hit| HELD - hit.distance);
                 let is_free = things.distance(eye) > ELBOWS && !things.blocked(eye, edge);
                 if is_free && stands_on.is_some_and(|height| height.abs() < 0.05) {
-                    places.push(looking(eye, middle.with_z(max.z + ABOVE_DESKS)));
+                    places.push(looking(eye, middle.with_z(max.z + ABOVE_DESKS) - eye));
                 }
             }
         }
@@ -85,7 +78,7 @@ fn on_the_way() -> Vec<DAffine3> {
     let view = |number: usize| {
         let at = number * (way.len() - 1) / 24;
         let [from, to] = [way[at], way[at + 1]].map(|[x, y]| DVec3::new(x, y, MOUNTED));
-        looking(from, to)
+        looking(from, to - from)
     };
     (0..24).map(view).collect()
 }

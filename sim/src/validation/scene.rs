@@ -2,12 +2,20 @@
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-use crate::world::{Material, Mesh, Object, TEXTURE_SIZE, World};
+use crate::world::{Gloss, Material, Mesh, Object, TEXTURE_SIZE, World};
 
 /// `world_from_infrared` of a Kinect at the origin, level, looking north.
 pub fn looking_north() -> DAffine3 {
     // The camera's right, down and forward in the world.
     DAffine3::from_mat3_translation(DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y), DVec3::ZERO)
+}
+
+/// `world_from_camera` of one who looks in a direction, its rows level.
+pub fn looking(from: DVec3, towards: DVec3) -> DAffine3 {
+    let ahead = towards.normalize();
+    let right = ahead.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
+    // The camera's right, down and forward in the world.
+    DAffine3::from_mat3_translation(DMat3::from_cols(right, ahead.cross(right), ahead), from)
 }
 
 /// Irradiance of a surface: lux of white light, W m⁻² nm⁻¹ at 830 nm.
@@ -74,7 +82,7 @@ impl Light {
 pub fn even(name: &str, rgb: [u8; 3], near_infrared: f32) -> Material {
     let [red, green, blue] = rgb;
     let albedo = vec![[red, green, blue, (near_infrared * 255.0).round() as u8]; TEXTURE_SIZE * TEXTURE_SIZE];
-    Material { name: name.into(), albedo }
+    Material { name: name.into(), albedo, gloss: Gloss::MATT }
 }
 
 /// Squares of two shades, `across` of them along the texture.
@@ -84,7 +92,7 @@ pub fn chequered(name: &str, dark: [u8; 4], bright: [u8; 4], across: usize) -> M
         let (x, y) = (index % TEXTURE_SIZE / square, index / TEXTURE_SIZE / square);
         if (x + y) % 2 == 0 { dark } else { bright }
     };
-    Material { name: name.into(), albedo: (0..TEXTURE_SIZE * TEXTURE_SIZE).map(texel).collect() }
+    Material { name: name.into(), albedo: (0..TEXTURE_SIZE * TEXTURE_SIZE).map(texel).collect(), gloss: Gloss::MATT }
 }
 
 /// A parallelogram from a corner along two edges (metres), facing along their cross product, `cells`² quads; the

@@ -24,6 +24,7 @@ use std::sync::Arc;
 
 use crate::light::Bands;
 use ground::Ground;
+pub use material::gloss::{Gloss, SHINIEST, SMOOTHEST};
 use transfer::Transfer;
 
 /// Edge of every texture, texels.
@@ -78,13 +79,15 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What a surface reflects; Lambertian. [`TEXTURE_SIZE`]² texels, row after row.
+/// What a surface reflects: evenly, beneath a boundary that may mirror. [`TEXTURE_SIZE`]² texels, row after row.
 #[derive(Clone, Debug)]
 pub struct Material {
     /// For readers.
     pub name: String,
     /// R, G, B: visible albedo, sRGB-encoded; fourth: 830 nm albedo, linear, 255 = 1.
     pub albedo: Vec<[u8; 4]>,
+    /// Its boundary.
+    pub gloss: Gloss,
 }
 
 /// A rectangular panel that shines to one side, as a ceiling lamp does, or a window that lets daylight in.

@@ -1,6 +1,6 @@
 //! Shapes to build a world from: quads, boxes, cylinders, with normals and texture coordinates.
 
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3, Vec2, Vec3, vec3};
 
 use super::Mesh;
 
@@ -54,6 +54,12 @@ impl Place {
     /// At x, y, z metres, turned by `yaw_deg` degrees anticlockwise.
     pub fn new(x: f32, y: f32, z: f32, yaw_deg: f32) -> Self {
         Self { at: vec3(x, y, z), yaw: yaw_deg.to_radians() }
+    }
+
+    /// On the floor at `from`, its x axis towards `to`.
+    pub fn along(from: Vec2, to: Vec2) -> Self {
+        let way = to - from;
+        Self { at: from.extend(0.0), yaw: way.y.atan2(way.x) }
     }
 
     /// A point given in this place's frame, in the world's.

@@ -1,10 +1,11 @@
 //! A Kinect without noise outdoors, whose numbers are read as light.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::DVec3;
 use sunblind_sim::kinect::calibration::Calibration;
 use sunblind_sim::kinect::{Imaging, Kinect};
 use sunblind_sim::light::LightState;
 use sunblind_sim::render::Sweep;
+use sunblind_sim::validation::scene::looking;
 use sunblind_sim::world::World;
 
 /// Where pixels are compared; the infrared camera's middle.
@@ -58,11 +59,4 @@ impl Seen {
 fn mean<T>(pixels: &[T], [x, y]: [usize; 2], value: impl Fn(&T) -> f64) -> f64 {
     let around = (y - 2..=y + 2).flat_map(|y| (x - 2..=x + 2).map(move |x| 640 * y + x));
     around.map(|index| value(&pixels[index])).sum::<f64>() / 25.0
-}
-
-/// `world_from_camera` of one who looks in a direction, level.
-pub fn looking(from: DVec3, towards: DVec3) -> DAffine3 {
-    let forward = towards.normalize();
-    let right = forward.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
-    DAffine3::from_mat3_translation(DMat3::from_cols(right, forward.cross(right), forward), from)
 }

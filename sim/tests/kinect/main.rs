@@ -2,6 +2,7 @@
 //! the device's own images, rendered on whatever adapter there is.
 
 mod energy;
+mod gloss;
 mod light;
 mod projector;
 mod repeatability;

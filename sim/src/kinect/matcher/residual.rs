@@ -63,6 +63,29 @@ impl Residual {
     }
 }
 
+/// An image's rows in pairs, pixel by pixel: (x, y), (x, y + 1), (x + 1, y), … What processors multiply and add in one
+/// instruction.
+pub(super) struct RowPairs(Vec<[i16; 2 * STRIDE]>);
+
+impl RowPairs {
+    /// Each row with the next.
+    pub fn of(image: &Residual) -> Self {
+        let mut pairs = vec![[0; 2 * STRIDE]; image.height - 1];
+        for (pair, rows) in pairs.iter_mut().zip(image.rows.windows(2)) {
+            for (x, pixels) in pair.as_chunks_mut().0.iter_mut().enumerate() {
+                *pixels = [rows[0][x], rows[1][x]];
+            }
+        }
+        Self(pairs)
+    }
+
+    /// Some pairs, those of rows `y` and `y + 1`, `y + 1` and `y + 2`, ….
+    #[inline(always)]
+    pub fn rows<const COUNT: usize>(&self, y: usize) -> &[[i16; 2 * STRIDE]; COUNT] {
+        self.0[y..].first_chunk().expect("rows that lie in the image")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,13 +7,17 @@ use crate::light::{Beam, LightState, Sky, illuminance};
 use crate::world::material::mean_albedo;
 use crate::world::refine::refine;
 use crate::world::shape::Mapping;
-use crate::world::{Material, Mesh, Object, TEXTURE_SIZE, WINDOWS};
+use crate::world::{Gloss, Material, Mesh, Object, TEXTURE_SIZE, WINDOWS};
 
 const QUICK: Effort = Effort { rays: 128, bounces: 4, lamp_step: 0.3 };
 const METRIC: Mapping = Mapping::Fitted;
 
 fn grey(level: u8) -> Material {
-    Material { name: "grey".into(), albedo: vec![[level, level, level, 128]; TEXTURE_SIZE * TEXTURE_SIZE] }
+    Material {
+        name: "grey".into(),
+        albedo: vec![[level, level, level, 128]; TEXTURE_SIZE * TEXTURE_SIZE],
+        gloss: Gloss::MATT,
+    }
 }
 
 fn object(name: &str, mut mesh: Mesh) -> Object {

@@ -3,6 +3,8 @@ use std::sync::LazyLock;
 use glam::{DVec3, vec2};
 
 use super::*;
+use crate::light::{daylight, illuminance};
+use crate::world::bake::{Effort, bake_cached, cache_folder};
 use crate::world::rays::Rays;
 use crate::world::yard::clearance;
 
@@ -69,6 +71,28 @@ fn indoors_and_in_the_tunnel_nothing_is_seen_of_the_sky() {
             assert!(hit.front || !is_wall, "from {x}, {y} along {way}: the back of {seen}");
         }
     }
+}
+
+#[test]
+fn in_the_middle_of_the_tunnel_it_is_dark_at_noon_unless_its_lamps_are_on() {
+    let mut world = WORLD.clone();
+    // As a run computes it, and from the same cache.
+    let _ = bake_cached(&mut world, &Effort::default(), &cache_folder(), &|_| {});
+    let mean_lux = |tunnel_lamps: f32| {
+        let mut light = daylight(60_f64.to_radians(), std::f64::consts::PI, 0.0);
+        light.lamps.insert("tunnel".to_owned(), tunnel_lamps);
+        let irradiance = world.transfer.irradiance(&world.transfer.weights(&light));
+        let vertices = world.objects.iter().flat_map(|object| object.mesh.positions.iter().map(move |at| (object, at)));
+        let lux: Vec<f32> = vertices
+            .zip(&irradiance)
+            .filter(|((object, [x, ..]), _)| object.name.starts_with("tunnel, ") && (7.0..10.0).contains(x))
+            .map(|(_, light)| illuminance(light))
+            .collect();
+        lux.iter().sum::<f32>() / lux.len() as f32
+    };
+    let (dark, lit) = (mean_lux(0.0), mean_lux(1.0));
+    println!("{dark} lx without lamps, {lit} lx with them");
+    assert!(dark < 0.5 && lit > 30.0, "{dark} lx without lamps, {lit} lx with them");
 }
 
 #[test]

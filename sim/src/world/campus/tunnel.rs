@@ -16,6 +16,10 @@ const INNER: f32 = -3.5;
 const CEILING: f32 = GARAGE_DOOR_HEIGHT;
 /// Longest edge of its walls' triangles, metres.
 const EDGE: f32 = 0.55;
+/// How high its roller doors leave it open, metres.
+const HALF_SHUT: f32 = 0.95;
+/// How far its buttresses stand out, metres.
+const BUTTRESS: f32 = 0.7;
 /// Exitance of a lamp's cover, lux: a fluorescent tube, some 3000 lm out of 0.14 m².
 const TUBE: f32 = 21_000.0;
 
@@ -48,18 +52,44 @@ pub(super) fn build(scene: &mut Scene) {
     {
         lamp(scene, index, [x, y], (1..4).contains(&index));
     }
+    half_shut(scene, "west roller door", [west, west_inner]);
+    half_shut(scene, "east roller door", [east_inner, east]);
+    buttress(scene, "west buttress", [west, west + BUTTRESS]);
+    buttress(scene, "east buttress", [east - BUTTRESS, east]);
     fittings(scene, [west, west_inner, east_inner, east]);
+}
+
+/// A roller door, pulled down half-way: robots fit below it, most of the daylight does not.
+fn half_shut(scene: &mut Scene, name: &str, [left, right]: [f32; 2]) {
+    let place = Place::new(0.5 * (left + right), GARAGES - 0.1, 0.0, 180.0);
+    scene.piece(&format!("tunnel, {name}"), Kind::Solid, place, |piece| {
+        let half = 0.5 * (right - left);
+        piece.cuboid(Surface::GreyCoat, [-half, 0.0, HALF_SHUT], [half, 0.04, CEILING]);
+        piece.front(Surface::RollerDoor, [-half, half], [HALF_SHUT, CEILING], -0.002);
+    });
+}
+
+/// Stands out from a wall before the bend: without it the wall's end, which lights the bottom, would see the entrance.
+fn buttress(scene: &mut Scene, name: &str, [left, right]: [f32; 2]) {
+    scene.piece(&format!("tunnel, {name}"), Kind::Solid, Place::default(), |piece| {
+        // In courses, as light is kept at corners.
+        for course in 0..4 {
+            let [bottom, top] = [course, course + 1].map(|edge| CEILING * edge as f32 / 4.0);
+            piece.block(Surface::SootyConcrete, [left, INNER + 0.1, bottom], [right, INNER + 0.4, top]);
+        }
+    });
 }
 
 fn wall(scene: &mut Scene, name: &str, from: [f32; 2], to: [f32; 2]) {
     let [from, to] = [from, to].map(glam::Vec2::from);
-    let along = to - from;
-    let place = Place { at: from.extend(0.0), yaw: along.y.atan2(along.x) };
-    scene.piece(&format!("tunnel, {name}"), Kind::Solid, place, |piece| {
-        let [columns, rows] = [along.length(), CEILING].map(|end| cuts_no_longer_than(EDGE, &[0.0, end]));
-        let mapping = piece.mapping(Surface::Concrete);
+    scene.piece(&format!("tunnel, {name}"), Kind::Solid, Place::along(from, to), |piece| {
+        let [columns, rows] = [from.distance(to), CEILING].map(|end| cuts_no_longer_than(EDGE, &[0.0, end]));
+        let mapping = piece.mapping(Surface::SootyConcrete);
         let corner = vec3(0.0, 0.0, CEILING);
-        piece.mesh(Surface::Concrete, &Mesh::grid(corner, Vec3::X, -Vec3::Z, [&columns, &rows], |_, _| false, mapping));
+        piece.mesh(
+            Surface::SootyConcrete,
+            &Mesh::grid(corner, Vec3::X, -Vec3::Z, [&columns, &rows], |_, _| false, mapping),
+        );
     });
 }
 
@@ -74,7 +104,7 @@ fn slabs(scene: &mut Scene, name: &str, min: [f32; 2], max: [f32; 2]) {
     let (floor, ceiling) = (vec3(0.0, min[1] - north, 0.0), vec3(0.0, max[1] - min[1], 0.0));
     scene.piece(&format!("tunnel, {name}"), Kind::Decor, Place::default(), |piece| {
         piece.mesh(Surface::Asphalt, &grid(vec3(min[0], north, 0.0), floor, Surface::Asphalt));
-        piece.mesh(Surface::Concrete, &grid(vec3(min[0], min[1], CEILING), ceiling, Surface::Concrete));
+        piece.mesh(Surface::SootyConcrete, &grid(vec3(min[0], min[1], CEILING), ceiling, Surface::SootyConcrete));
     });
 }
 

@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use super::source::Source;
 use crate::world::material::substance::{encoded, linear};
-use crate::world::{Material, TEXTURE_SIZE};
+use crate::world::{Gloss, Material, TEXTURE_SIZE};
 
 const TEXELS: usize = TEXTURE_SIZE * TEXTURE_SIZE;
 
@@ -29,7 +29,7 @@ pub(super) fn material(source: &Source, material: &gltf::Material<'_>) -> Result
 
 /// Of what has no material: light grey.
 pub(super) fn plain() -> Material {
-    Material { name: "plain".into(), albedo: vec![[188, 188, 188, 128]; TEXELS] }
+    Material { name: "plain".into(), albedo: vec![[188, 188, 188, 128]; TEXELS], gloss: Gloss::MATT }
 }
 
 fn describe(source: &Source, material: &gltf::Material<'_>, name: &str) -> Result<Material, String> {
@@ -63,5 +63,5 @@ fn describe(source: &Source, material: &gltf::Material<'_>, name: &str) -> Resul
         }
         None => vec![colour([255; 4]); TEXELS],
     };
-    Ok(Material { name: name.to_owned(), albedo })
+    Ok(Material { name: name.to_owned(), albedo, gloss: Gloss::MATT })
 }

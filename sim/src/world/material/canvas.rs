@@ -1,6 +1,7 @@
 //! A texture while it is painted: albedo in two bands, drawn on in metres.
 
 use super::super::{Material, TEXTURE_SIZE};
+use super::gloss::Gloss;
 use super::noise;
 use super::substance::{Substance, encoded};
 
@@ -129,6 +130,6 @@ impl Canvas {
     pub fn finish(self, name: &str) -> Material {
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let albedo = self.texels.iter().map(|&[r, g, b, nir]| [encoded(r), encoded(g), encoded(b), nir].map(byte));
-        Material { name: name.to_owned(), albedo: albedo.collect() }
+        Material { name: name.to_owned(), albedo: albedo.collect(), gloss: Gloss::MATT }
     }
 }

@@ -4,6 +4,7 @@ mod building;
 mod canvas;
 mod fittings;
 mod fronts;
+pub mod gloss;
 mod glyph;
 mod noise;
 mod outdoor_ground;
@@ -96,6 +97,7 @@ pub enum Surface {
     Asphalt,
     Pavers,
     Concrete,
+    SootyConcrete,
     Lawn,
     Gravel,
     Earth,
@@ -147,7 +149,7 @@ fn picture(size: [f32; 2], paint: fn([f32; 2], u32) -> Canvas) -> Recipe {
 
 impl Surface {
     /// All of them; a world's materials are in this order, without those that it has no use for.
-    pub const ALL: [Self; 98] = {
+    pub const ALL: [Self; 99] = {
         use Surface::*;
         [
             WallPaint,
@@ -220,6 +222,7 @@ impl Surface {
             Asphalt,
             Pavers,
             Concrete,
+            SootyConcrete,
             Lawn,
             Gravel,
             Earth,
@@ -340,6 +343,7 @@ impl Surface {
             Self::Asphalt => tiled([2.5, 2.5], outdoor_ground::asphalt),
             Self::Pavers => tiled([2.0, 2.0], outdoor_ground::pavers),
             Self::Concrete => tiled([2.5, 2.5], outdoor_ground::concrete),
+            Self::SootyConcrete => tiled([2.5, 2.5], outdoor_ground::sooty_concrete),
             Self::Lawn => tiled([1.6, 1.6], outdoor_ground::lawn),
             Self::Gravel => tiled([1.0, 1.0], outdoor_ground::gravel),
             Self::Earth => tiled([1.2, 1.2], outdoor_ground::earth),
@@ -379,7 +383,7 @@ pub fn materials(surfaces: &[Surface], seed: u64) -> Vec<Material> {
         .map(|&surface| {
             let Recipe { size, paint, .. } = surface.recipe();
             let seed = (seed as u32 ^ (seed >> 32) as u32).wrapping_add(1009 * surface as u32);
-            paint(size, seed).finish(&format!("{surface:?}"))
+            Material { gloss: surface.gloss(), ..paint(size, seed).finish(&format!("{surface:?}")) }
         })
         .collect()
 }

@@ -97,7 +97,16 @@ pub fn pavers(size: [f32; 2], seed: u32) -> Canvas {
 
 /// Cast concrete: formwork boards of 25 cm, bubbles, streaks from rain.
 pub fn concrete(size: [f32; 2], seed: u32) -> Canvas {
-    let mut canvas = Canvas::new(size, CONCRETE);
+    cast(size, CONCRETE, seed)
+}
+
+/// The same in a tunnel.
+pub fn sooty_concrete(size: [f32; 2], seed: u32) -> Canvas {
+    cast(size, SOOTY_CONCRETE, seed)
+}
+
+fn cast(size: [f32; 2], concrete: Substance, seed: u32) -> Canvas {
+    let mut canvas = Canvas::new(size, concrete);
     let [width, height] = size;
     canvas.shade(|x, y| {
         let board = hash((y / 0.25) as u32, 0, seed);
@@ -109,15 +118,15 @@ pub fn concrete(size: [f32; 2], seed: u32) -> Canvas {
     for bubble in 0..420 {
         let [x, y, radius] = [0, 1, 2].map(|i| hash(bubble, i, seed + 4));
         let at = [x * width, y * height];
-        repeated(size, at, 0.01, |at| canvas.disc(at, 0.002 + 0.006 * radius * radius, toned(CONCRETE, 0.4)));
+        repeated(size, at, 0.01, |at| canvas.disc(at, 0.002 + 0.006 * radius * radius, toned(concrete, 0.4)));
     }
     for board in 0..(height / 0.25) as u32 {
         let y = 0.25 * board as f32;
-        canvas.rectangle([0.0, y, width, y + 0.005], toned(CONCRETE, 0.55));
+        canvas.rectangle([0.0, y, width, y + 0.005], toned(concrete, 0.55));
     }
     for tie in 0..4 {
         let at = [width * (0.25 + 0.5 * (tie % 2) as f32), height * (0.25 + 0.5 * (tie / 2) as f32)];
-        canvas.disc(at, 0.014, toned(CONCRETE, 0.35));
+        canvas.disc(at, 0.014, toned(concrete, 0.35));
     }
     canvas
 }

@@ -88,6 +88,8 @@ pub const SKY: Substance = [0.76, 0.84, 0.94, 0.80];
 pub const ASPHALT: Substance = [0.125, 0.113, 0.094, 0.150];
 /// Concrete. Measured: 0.32, 0.28, 0.22 → 0.34, 0.36, 0.33, 0.26 → 0.37; a little soiled.
 pub const CONCRETE: Substance = [0.29, 0.26, 0.21, 0.33];
+/// Concrete under years of exhaust. A guess: a third of it, as carbon black has 0.04 in both bands.
+pub const SOOTY_CONCRETE: Substance = [0.10, 0.093, 0.082, 0.12];
 /// A lawn. Measured: 0.05 at 650 nm, 0.11, 0.04 → 0.49; red as a camera sees it reaches down to 580 nm, where grass is
 /// brighter (a guess).
 pub const GRASS: Substance = [0.063, 0.11, 0.041, 0.49];

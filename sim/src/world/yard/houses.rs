@@ -50,8 +50,7 @@ pub(super) struct Facade<'a> {
 
 impl Facade<'_> {
     fn place(&self) -> Place {
-        let right = (Vec2::from(self.to) - Vec2::from(self.from)).normalize();
-        Place { at: Vec2::from(self.from).extend(0.0), yaw: right.y.atan2(right.x) }
+        Place::along(self.from.into(), self.to.into())
     }
 
     fn length(&self) -> f32 {
@@ -175,10 +174,10 @@ pub(super) fn wall(
     thickness: f32,
     height: f32,
 ) {
-    let along = Vec2::from(to) - Vec2::from(from);
-    let place = Place { at: Vec2::from(from).extend(0.0), yaw: along.y.atan2(along.x) };
-    let pieces = (along.length() / 6.0).ceil().max(1.0);
-    let part = along.length() / pieces;
+    let [from, to] = [from, to].map(Vec2::from);
+    let (place, length) = (Place::along(from, to), from.distance(to));
+    let pieces = (length / 6.0).ceil().max(1.0);
+    let part = length / pieces;
     for index in 0..pieces as u32 {
         let left = part * index as f32;
         scene.piece(&format!("{name}, part {index}"), Kind::Solid, place, |piece| {
@@ -191,10 +190,9 @@ pub(super) fn wall(
 
 /// A fence of upright boards on posts, its boarded side to −y of the line from `from` to `to`.
 pub(super) fn fence(scene: &mut Scene, name: &str, [from, to]: [[f32; 2]; 2], bottom: f32, top: f32) {
-    let along = Vec2::from(to) - Vec2::from(from);
-    let place = Place { at: Vec2::from(from).extend(0.0), yaw: along.y.atan2(along.x) };
-    scene.piece(name, Kind::Solid, place, |piece| {
-        let length = along.length();
+    let [from, to] = [from, to].map(Vec2::from);
+    scene.piece(name, Kind::Solid, Place::along(from, to), |piece| {
+        let length = from.distance(to);
         piece.block(Surface::Planks, [0.0, -0.02, bottom], [length, 0.02, top]);
         for post in 0..=(length / 1.8).ceil() as u32 {
             // Not at a corner: light is kept there.

@@ -234,7 +234,7 @@ pub(super) fn hedge(scene: &mut Scene, name: &str, [from, to]: [[f32; 2]; 2], th
     let [from, to] = [from, to].map(glam::Vec2::from);
     let along = to - from;
     let base = on_ground(from.x, from.y, 0.0).at.z.min(on_ground(to.x, to.y, 0.0).at.z);
-    let place = Place { at: from.extend(base - 0.1), yaw: along.y.atan2(along.x) };
+    let place = Place { at: from.extend(base - 0.1), ..Place::along(from, to) };
     let (length, half) = (along.length(), 0.5 * thick);
     let mapping = surface_mapping(Surface::Hedge);
     // Round its cross-section from foot to foot, and along it; the ends are closed by the same net.

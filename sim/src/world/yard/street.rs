@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, vec3};
 
-use crate::light::{LampKind, headlights};
+use crate::light::{CAR_PLACES, LampKind, headlights};
 use crate::world::Lamp;
 use crate::world::material::Surface;
 use crate::world::scene::{Kind, Scene};
@@ -10,7 +10,7 @@ use crate::world::shape::Place;
 
 /// Where the car is and where it heads, metres and degrees anticlockwise from east: it comes straight at the gate, and
 /// the street bends away before it.
-const COURSE: [([f32; 2], f32); 4] =
+const COURSE: [([f32; 2], f32); CAR_PLACES] =
     [([-20.0, 5.4], -2.0), ([-14.5, 5.0], -6.0), ([-9.5, 4.2], -8.0), ([-6.5, 3.2], -20.0)];
 /// The middle of the gate.
 const GATE: Vec3 = vec3(0.1, 3.9, 0.65);
@@ -23,10 +23,9 @@ const HALF_EDGE: f32 = 0.15;
 
 /// A barred gate of two wings from one point to another: light passes, robots do not.
 pub(super) fn gate(scene: &mut Scene, [from, to]: [[f32; 2]; 2]) {
-    let along = Vec2::from(to) - Vec2::from(from);
-    let place = Place { at: Vec2::from(from).extend(0.0), yaw: along.y.atan2(along.x) };
-    scene.piece("gate", Kind::Solid, place, |piece| {
-        let length = along.length();
+    let [from, to] = [from, to].map(Vec2::from);
+    scene.piece("gate", Kind::Solid, Place::along(from, to), |piece| {
+        let length = from.distance(to);
         let mut upright = |x: f32, half: f32, top: f32| {
             piece.block(Surface::DarkCoat, [x - half, -half, 0.06], [x + half, half, top]);
         };

@@ -10,8 +10,9 @@ use crate::world::scene::{Kind, Piece, Scene};
 use crate::world::shape::Place;
 use crate::world::{Lamp, Mesh};
 
-/// Exitance of a street lamp's glass, lux: a 70 W sodium lamp, some 4500 lm out of 0.09 m².
-const STREET_LAMP: f32 = 50_000.0;
+/// Exitance of a street lamp's glass, lux: a 35 W sodium lamp of 2300 lm, of which three quarters leave the lantern by
+/// 0.09 m². That is 40 lx below it, as much as paths get.
+const STREET_LAMP: f32 = 19_000.0;
 
 /// A flat face with four corners, anticlockwise from its lower left as seen; shows a texture's share of `u` and `v`.
 fn sheet(piece: &mut Piece, surface: Surface, corners: [Vec3; 4], [[left, top], [right, bottom]]: [[f32; 2]; 2]) {
