@@ -278,6 +278,7 @@ impl Vision {
         self.last = Some(time);
         self.report = Some(FrameReport {
             time,
+            mode: self.mode,
             features,
             matches: tracks.len(),
             inliers: tracks.iter().filter(|track| track.inlier).count(),

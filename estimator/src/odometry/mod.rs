@@ -11,6 +11,7 @@ mod night;
 use nalgebra::{Isometry3, Matrix6};
 
 use crate::features::surf::Feature;
+use crate::measurement::Mode;
 use crate::motion::MotionFailure;
 use crate::time::Timestamp;
 
@@ -64,6 +65,8 @@ impl Tracking {
 pub struct FrameReport {
     /// The frame's instant.
     pub time: Timestamp,
+    /// Which images it was followed by: at night tracks are in infrared pixels, otherwise in colour's.
+    pub mode: Mode,
     /// Features found.
     pub features: usize,
     /// Matches to the reference.

@@ -1,9 +1,11 @@
-//! What the camera saw at a few instants: colour with the tracked features, infrared, depth in false colour.
+//! What the camera saw at a few instants: colour and infrared, one of them with the tracked features, and
+//! depth in false colour.
 
 use std::fmt::Write;
 use std::io;
 
 use serde::Serialize;
+use sunblind_estimator::Mode;
 use sunblind_estimator::odometry::FeatureTrack;
 
 use super::format::{duration, length};
@@ -33,12 +35,14 @@ pub(super) struct Pictures {
 pub(super) struct Picture {
     pub time: String,
     pub caption: String,
-    /// Size of the colour image in pixels, in which the tracks are drawn.
+    /// Size in pixels of the image in which the tracks are drawn.
     pub width: usize,
     pub height: usize,
     /// JPEG as base64; empty for an empty image.
     pub colour: String,
     pub infrared: String,
+    /// Whether the tracks are in the infrared image.
+    pub at_night: bool,
     pub depth: String,
     /// SVG path data.
     pub inliers: Flow,
@@ -70,7 +74,10 @@ pub(super) fn pictures(judged: &Judged, tones: &Tones) -> io::Result<Option<Pict
 }
 
 fn picture(judged: &Judged, snapshot: &Snapshot, tones: &Tones) -> io::Result<Picture> {
-    let (width, height) = snapshot.rgb.size();
+    let (width, height) = match (snapshot.mode, &snapshot.infrared) {
+        (Mode::Night, Some(infrared)) => infrared.size(),
+        _ => snapshot.rgb.size(),
+    };
     let (inliers, outliers): (Vec<_>, Vec<_>) = snapshot.tracks.iter().partition(|track| track.inlier);
     let since_start = judged.start().map_or(0.0, |start| snapshot.time.since(start));
     Ok(Picture {
@@ -87,6 +94,7 @@ fn picture(judged: &Judged, snapshot: &Snapshot, tones: &Tones) -> io::Result<Pi
             None => String::new(),
         },
         depth: jpeg(&tones.depth(&snapshot.depth, WIDTH), QUALITY)?,
+        at_night: snapshot.mode == Mode::Night,
         inliers: flow(&inliers),
         outliers: flow(&outliers),
     })

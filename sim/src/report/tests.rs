@@ -68,6 +68,7 @@ fn snapshot(index: u32, [width, height]: [usize; 2]) -> Snapshot {
         infrared: None,
         depth: Image::from_pixels(width, height, depth).unwrap(),
         tracks: (0..200).map(track).collect(),
+        mode: Mode::Indoor,
     }
 }
 

@@ -3,21 +3,24 @@
 use sha2::{Digest, Sha256};
 use sunblind_estimator::{Measurement, MeasurementData, Timestamp};
 
-use crate::record::{Frame, Sensor};
+use super::pairing::Shot;
+use crate::record::Sensor;
 
 /// Whether it is an image of a kind that frames are made of.
 pub(super) fn may_be_in_a_frame(measurement: &Measurement) -> bool {
     matches!(measurement.data, MeasurementData::Rgb(_) | MeasurementData::Depth(_))
 }
 
-/// SHA-256 over a frame's times, sizes and pixels.
-pub(super) fn of_frame(frame: &Frame) -> [u8; 32] {
-    let Frame { rgb_time, depth_time, rgb, depth } = frame;
+/// SHA-256 over the times, sizes and pixels of a shot's colour and depth.
+pub(super) fn of_frame(Shot { time, depth_time, rgb, depth, .. }: &Shot) -> [u8; 32] {
     let mut hash = Sha256::new();
-    for (time, size) in [(rgb_time, rgb.size()), (depth_time, depth.size())] {
-        head(&mut hash, *time, size);
+    if let Some(rgb) = rgb {
+        head(&mut hash, *time, rgb.size());
     }
-    hash.update(rgb.pixels().as_flattened());
+    head(&mut hash, *depth_time, depth.size());
+    if let Some(rgb) = rgb {
+        hash.update(rgb.pixels().as_flattened());
+    }
     hash.update(little_endian(depth.pixels()));
     hash.finalize().into()
 }

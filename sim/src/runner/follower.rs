@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 use sunblind_estimator::geometry::adjoint;
 use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{
-    Disposition, Estimate, Health, Localizer, Measurement, MeasurementData, Rejection, Streams, Timestamp,
+    Disposition, Estimate, Health, Localizer, Measurement, MeasurementData, Mode, Rejection, Streams, Timestamp,
 };
 
 use super::driven::Driven;
@@ -80,9 +80,10 @@ impl Follower {
         }
     }
 
-    /// The feature tracks of the frame that was logged last; none when it gave no report.
-    pub fn feature_tracks(&self) -> Vec<FeatureTrack> {
-        self.driven.last_frame().filter(|_| self.reported).map(|report| report.tracks.clone()).unwrap_or_default()
+    /// The feature tracks of the frame that was logged last, and its mode; none and wheels when it gave no report.
+    pub fn feature_tracks(&self) -> (Vec<FeatureTrack>, Mode) {
+        let report = self.driven.last_frame().filter(|_| self.reported);
+        report.map_or((Vec::new(), Mode::Odometer), |report| (report.tracks.clone(), report.mode))
     }
 
     /// What the localiser counted in the newest frame; `None` when its newest report is of an older one.

@@ -1,8 +1,8 @@
 //! The images of a run that are kept for its report.
 
-use sunblind_estimator::Rig;
-use sunblind_estimator::image::{Image, RgbImage};
+use sunblind_estimator::image::{Image, InfraredImage, RgbImage};
 use sunblind_estimator::odometry::FeatureTrack;
+use sunblind_estimator::{Mode, Rig};
 
 use super::log::Snapshot;
 use super::pairing::Shot;
@@ -18,8 +18,8 @@ const THUMBNAIL_WIDTH: usize = 192;
 pub(super) struct Gallery {
     expected_frames: usize,
     next_frame: usize,
-    pub snapshots: Vec<Snapshot>,
-    pub thumbnails: Vec<Snapshot>,
+    snapshots: Vec<Snapshot>,
+    thumbnails: Vec<Snapshot>,
 }
 
 impl Gallery {
@@ -28,16 +28,30 @@ impl Gallery {
         Self { expected_frames, next_frame: 0, snapshots: Vec::new(), thumbnails: Vec::new() }
     }
 
-    /// Looks at the next frame; `tracks` is asked for its feature tracks if it is kept as it is.
-    pub fn take(&mut self, shot: &Shot, rig: &Rig, tracks: impl FnOnce() -> Vec<FeatureTrack>) {
+    /// Looks at the next frame; `seen` is asked for its feature tracks and the mode if it is kept as it is.
+    pub fn take(&mut self, shot: &Shot, rig: &Rig, seen: impl FnOnce() -> (Vec<FeatureTrack>, Mode)) {
         let (index, count) = (self.next_frame, self.expected_frames);
         self.next_frame += 1;
         if is_among(SNAPSHOTS, index, count) {
-            self.snapshots.push(Snapshot { tracks: tracks(), ..snapshot(shot, rig) });
+            let (tracks, mode) = seen();
+            self.snapshots.push(Snapshot { tracks, mode, ..snapshot(shot, rig) });
         }
         if is_among(THUMBNAILS, index, count) {
             self.thumbnails.push(thumbnail(&snapshot(shot, rig)));
         }
+    }
+
+    /// The instants that are kept as they are, and those that are kept small. Where some have an infrared image all do.
+    pub fn finish(self) -> [Vec<Snapshot>; 2] {
+        [self.snapshots, self.thumbnails].map(|mut kept| {
+            if kept.iter().any(|shot| shot.infrared.is_some()) {
+                for shot in &mut kept {
+                    let (width, height) = shot.depth.size();
+                    shot.infrared.get_or_insert_with(|| InfraredImage::filled(width, height, 0));
+                }
+            }
+            kept
+        })
     }
 }
 
@@ -46,15 +60,17 @@ fn is_among(parts: usize, index: usize, count: usize) -> bool {
     (0..parts).any(|part| (2 * part + 1) * count / (2 * parts) == index)
 }
 
-fn snapshot(Shot { frame, infrared }: &Shot, rig: &Rig) -> Snapshot {
-    let metres = frame.depth.pixels().iter().map(|&value| rig.depth.depth_of(value).unwrap_or(0.0) as f32);
-    let (width, height) = frame.depth.size();
+fn snapshot(Shot { time, depth, rgb, infrared, .. }: &Shot, rig: &Rig) -> Snapshot {
+    let metres = depth.pixels().iter().map(|&value| rig.depth.depth_of(value).unwrap_or(0.0) as f32);
+    let (width, height) = depth.size();
+    let black = || RgbImage::filled(rig.colour.size().0, rig.colour.size().1, [0; 3]);
     Snapshot {
-        time: frame.rgb_time,
-        rgb: RgbImage::clone(&frame.rgb),
+        time: *time,
+        rgb: rgb.as_deref().map_or_else(black, RgbImage::clone),
         infrared: infrared.as_deref().cloned(),
         depth: Image::from_pixels(width, height, metres.collect()).expect("one value a pixel"),
         tracks: Vec::new(),
+        mode: Mode::Odometer,
     }
 }
 
@@ -67,6 +83,7 @@ fn thumbnail(Snapshot { time, rgb, infrared, depth, .. }: &Snapshot) -> Snapshot
         // The median: a mean over an edge or a hole would be a depth that nobody measured.
         depth: shrunk(depth, |block| median(block.to_vec())),
         tracks: Vec::new(),
+        mode: Mode::Odometer,
     }
 }
 

@@ -137,12 +137,14 @@ pub struct FrameCounts {
 pub struct Snapshot {
     /// When.
     pub time: Timestamp,
-    /// Colour image.
+    /// Colour image; black where the device gave infrared instead.
     pub rgb: RgbImage,
-    /// Infrared image of the same instant, where there is one.
+    /// Infrared image of the same instant, where there is one; black where only other instants of the run have one.
     pub infrared: Option<InfraredImage>,
     /// Z of the depth camera's pixels, metres; 0 = no value.
     pub depth: Image<f32>,
-    /// Feature tracks of the judged localiser.
+    /// Feature tracks of the judged localiser, in infrared pixels at night and in colour's otherwise.
     pub tracks: Vec<FeatureTrack>,
+    /// The judged localiser's mode.
+    pub mode: Mode,
 }

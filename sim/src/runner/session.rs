@@ -96,7 +96,7 @@ impl<'a> Session<'a> {
             steps.push(Step { measurement, shot: paired.shot });
         }
         let frame_digests: Vec<_> =
-            steps.par_iter().filter_map(|step| Some(digest::of_frame(&step.shot.as_ref()?.frame))).collect();
+            steps.par_iter().filter_map(|step| Some(digest::of_frame(step.shot.as_ref()?))).collect();
         frame_digests.iter().for_each(|digest| self.frame_hash.update(digest));
         self.hash_others(&others);
         steps
@@ -132,6 +132,7 @@ impl<'a> Session<'a> {
         warnings.extend(self.truth_warning(recorded, &truth));
         warnings.extend(self.followers.iter().filter_map(Follower::warning));
         let (started, cpu) = self.started;
+        let [snapshots, thumbnails] = self.gallery.finish();
         RunLog {
             recording,
             warnings,
@@ -139,8 +140,8 @@ impl<'a> Session<'a> {
             tracks: self.followers.into_iter().flat_map(|follower| follower.finish(&truth)).collect(),
             truth,
             has_wheels: self.rig.drive.is_some(),
-            snapshots: self.gallery.snapshots,
-            thumbnails: self.gallery.thumbnails,
+            snapshots,
+            thumbnails,
             energies: self.energies.means(),
             plan: None,
             planned_path: Vec::new(),
@@ -180,7 +181,7 @@ fn follow(follower: &mut Follower, steps: &[Step], mut after_frame: impl FnMut(&
     for Step { measurement, shot } in steps {
         follower.take(measurement);
         if let Some(shot) = shot {
-            follower.log(shot.frame.rgb_time);
+            follower.log(shot.time);
             after_frame(follower, shot);
         }
     }
