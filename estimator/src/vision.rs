@@ -46,6 +46,12 @@ impl Odometry {
         }
     }
 
+    fn expect(&mut self, last_from_camera: Isometry3<f64>) {
+        if let Self::Keyframes(odometry) = self {
+            odometry.expect(last_from_camera);
+        }
+    }
+
     fn restart(&mut self, pose: CameraPose) {
         match self {
             Self::Keyframes(odometry) => odometry.restart(pose),
@@ -99,6 +105,8 @@ pub(crate) struct Vision {
     pose: CameraPose,
     /// What the wheels have said lately.
     wheels: VecDeque<(Timestamp, PlanarPose)>,
+    /// Where the wheels had the camera when that pose was found.
+    found_at: Option<Isometry3<f64>>,
     /// What the odometry's keyframes are of.
     mode: Mode,
     rgb: Newest<[u8; 3]>,
@@ -121,6 +129,7 @@ impl Vision {
             odometry: Odometry::new(params),
             pose: CameraPose::start(),
             wheels: VecDeque::new(),
+            found_at: None,
             mode,
             rgb: Newest::of_size(rig.colour.size()),
             infrared: Newest::of_size(rig.depth.model.size()),
@@ -248,8 +257,15 @@ impl Vision {
 
     fn follow(&mut self, time: Timestamp, frame: Frame) -> (VisualPose, Option<MotionFailure>) {
         let features = frame.features.len();
+        let at = self.camera_by_wheels(time);
+        if let (Some(found_at), Some(at)) = (self.found_at, at) {
+            self.odometry.expect(found_at.inverse() * at);
+        }
         let tracking = self.odometry.track(frame, &mut self.observer);
         (self.observer)(Stage::Done);
+        if tracking.failure.is_none() || tracking.keyframe {
+            self.found_at = at;
+        }
         self.found(time, features, tracking)
     }
 

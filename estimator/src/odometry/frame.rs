@@ -5,9 +5,9 @@ use nalgebra::Isometry3;
 use crate::camera::Rig;
 use crate::estimator::Stage;
 use crate::features::surf::{Feature, Surf};
-use crate::image::{DepthImage, RgbImage};
+use crate::image::{DepthImage, GrayImage, Image, RgbImage};
 use crate::params::{EstimatorParams, Variant};
-use crate::structure::{DenseView, DepthNoise, Landmark, Registration, depth_at, lift};
+use crate::structure::{DenseView, DepthNoise, Landmark, Registration, ViewMaker, depth_at, lift};
 
 /// Features with depth, strongest first; `landmarks[i]` belongs to `features[i]`.
 #[derive(Clone, Debug)]
@@ -27,7 +27,24 @@ pub struct FrameView {
     pub view: DenseView,
     /// Points in its camera's frame → the colour camera's.
     pub colour_from_camera: Isometry3<f64>,
+    /// Whether all pixels are asked even where features say how the camera moved.
+    pub always: bool,
 }
+
+impl FrameView {
+    /// Whether enough of it has depth to be followed without features.
+    pub(super) fn shows_much(&self) -> bool {
+        let depth = self.view.depth.pixels();
+        depth.iter().filter(|z| **z > 0.0).count() as f64 > LEAST_FILLED * depth.len() as f64
+    }
+}
+
+/// Share of a view's pixels that must have depth, 0–1. A guess.
+const LEAST_FILLED: f64 = 0.3;
+
+/// Levels of shade that brightness grows by when it grows e-fold: a change of exposure is the same offset everywhere, and
+/// a tenth more is well above noise.
+const LEVELS_PER_E: f32 = 100.0;
 
 /// The paper's own variant uses no depth beyond 2.4 m; ours weighs it by its uncertainty.
 pub(super) fn depth_noise(params: &EstimatorParams) -> DepthNoise {
@@ -42,6 +59,7 @@ pub(super) fn depth_noise(params: &EstimatorParams) -> DepthNoise {
 pub struct FrameBuilder {
     registration: Registration,
     surf: Surf,
+    views: ViewMaker,
     noise: DepthNoise,
     rig: Rig,
 }
@@ -50,24 +68,36 @@ impl FrameBuilder {
     /// Tables for one rig.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         let (registration, surf) = (Registration::new(rig), Surf::new(params.surf));
-        Self { registration, surf, noise: depth_noise(params), rig: rig.clone() }
+        let views = ViewMaker::new(&rig.colour);
+        Self { registration, surf, views, noise: depth_noise(params), rig: rig.clone() }
     }
 
-    /// Registration, SURF, and the lift to 3D (paper A, §3.1: RGB feature + registered depth).
+    /// Registration, SURF, and the lift to 3D (paper A, §3.1: RGB feature + registered depth); all pixels besides, for
+    /// places without texture.
     pub fn build(&mut self, rgb: &RgbImage, depth: &DepthImage, stage: &mut dyn FnMut(Stage)) -> Frame {
         stage(Stage::Registration);
         let registered = self.registration.register(depth);
         stage(Stage::Features);
         let has_depth = |x: f32, y: f32, _: f32| depth_at(x, y, &registered, &self.noise).is_some();
+        let luma = rgb.to_luma();
         let (features, landmarks) = self
             .surf
-            .detect_where(&rgb.to_luma(), has_depth)
+            .detect_where(&luma, has_depth)
             .into_iter()
             .filter_map(|feature| {
                 let landmark = lift(&feature, &registered, &self.rig.colour, &self.noise)?;
                 Some((feature, landmark))
             })
             .unzip();
-        Frame { features, landmarks, view: None }
+        let view = self.views.view(&shade(&luma), &registered);
+        let view = Some(FrameView { view, colour_from_camera: Isometry3::identity(), always: false });
+        Frame { features, landmarks, view }
     }
+}
+
+/// Brightness in levels that a change of exposure adds the same to everywhere; above 0.
+fn shade(luma: &GrayImage) -> Image<f32> {
+    let levels: Vec<f32> = (0..=u8::MAX).map(|value| 1.0 + LEVELS_PER_E * (1.0 + f32::from(value)).ln()).collect();
+    let pixels = luma.pixels().iter().map(|&value| levels[usize::from(value)]).collect();
+    Image::from_pixels(luma.width(), luma.height(), pixels).expect("same size in and out")
 }

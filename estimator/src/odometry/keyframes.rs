@@ -11,7 +11,7 @@ use crate::geometry::adjoint;
 use crate::motion::{Motion, MotionFailure, Pair, align, misfit, ransac, refine};
 use crate::params::EstimatorParams;
 
-use super::{CameraPose, FeatureTrack, Frame, Tracking};
+use super::{CameraPose, FeatureTrack, Frame, FrameView, Tracking};
 
 /// Parameters of the keyframes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,6 +56,9 @@ impl Default for KeyframeParams {
 /// Least share of a keyframe's pixels that must be seen in a frame, or that becomes a keyframe itself. A guess.
 const LEAST_OVERLAP: f64 = 0.6;
 
+/// Fewer features that agree may agree by chance or lie in one corner of the image: then all pixels are asked. A guess.
+const FEW: usize = 30;
+
 /// A motion by all pixels, in the start frame.
 struct ByAllPixels {
     motion: Motion,
@@ -77,7 +80,7 @@ pub struct Keyframes {
     started: bool,
     /// The pose of the last frame, its covariance grown by the frames lost since.
     last: CameraPose,
-    /// From the frame before the last to the last one.
+    /// The camera's motion since the last pose, as it is expected: as wheels say, or like the one before.
     step: Isometry3<f64>,
     lost_frames: usize,
 }
@@ -96,12 +99,19 @@ impl Keyframes {
         self.lost_frames = 0;
     }
 
+    /// Says how the camera has moved since the pose that was found last, for all that is known without images: from there
+    /// the search begins.
+    pub fn expect(&mut self, last_from_camera: Isometry3<f64>) {
+        self.step = last_from_camera;
+    }
+
     /// Follows one frame.
     pub fn track(&mut self, frame: Frame, stage: &mut dyn FnMut(Stage)) -> Tracking {
         let needed = self.params.ransac.min_inliers;
         let found = frame.features.len();
-        if found < needed {
-            return self.lose(frame, MotionFailure::TooFewFeatures { found, needed }, Vec::new());
+        let too_few = MotionFailure::TooFewFeatures { found, needed };
+        if found < needed && !frame.view.as_ref().is_some_and(FrameView::shows_much) {
+            return self.lose(frame, too_few, Vec::new());
         }
         if self.window.is_empty() && self.started {
             return self.lose(frame, MotionFailure::NoReference, Vec::new());
@@ -115,13 +125,16 @@ impl Keyframes {
         stage(Stage::Motion);
         let sparse =
             ransac(&pairs, &self.params.ransac).and_then(|start| refine(&pairs, &start, needed, &self.params.refine));
-        let dense = self.by_all_pixels(&frame, sparse.as_ref().ok());
+        let agreeing = sparse.as_ref().map_or(0, |sparse| sparse.inliers.iter().filter(|inlier| **inlier).count());
+        let asks_all = frame.view.as_ref().is_some_and(|view| view.always || agreeing < FEW);
+        let dense = asks_all.then(|| self.by_all_pixels(&frame, sparse.as_ref().ok())).flatten();
         let motion = match (sparse, &dense) {
             (Ok(sparse), None) => sparse,
             (sparse, Some(dense)) => {
                 let inliers = sparse.map_or_else(|_| vec![false; pairs.len()], |sparse| sparse.inliers);
                 Motion { inliers, ..dense.motion.clone() }
             }
+            (Err(_), None) if found < needed => return self.lose(frame, too_few, tracks),
             (Err(failure), None) => return self.lose(frame, failure, tracks),
         };
         for (track, &inlier) in tracks.iter_mut().zip(&motion.inliers) {
@@ -153,8 +166,8 @@ impl Keyframes {
         Tracking { pose: self.last.clone(), failure: None, tracks, keyframe }
     }
 
-    /// Against the newest keyframe by all pixels, where both frames have them; from the motion by features or from what
-    /// goes on as before, whichever explains the pixels better.
+    /// Against the newest keyframe by all pixels, where both frames have them; from the motion by features or from the one
+    /// that is expected, whichever explains the pixels better.
     fn by_all_pixels(&self, frame: &Frame, sparse: Option<&Motion>) -> Option<ByAllPixels> {
         let newest = self.window.back()?;
         let (reference, view) = (newest.frame.view.as_ref()?, frame.view.as_ref()?);
@@ -162,10 +175,10 @@ impl Keyframes {
         let camera_from_colour = view.colour_from_camera.inverse();
         let relative =
             |start_from_camera: &Isometry3<f64>| camera_from_colour * start_from_camera.inverse() * start_from_keyframe;
-        let as_before = relative(&(self.last.start_from_camera * self.step));
+        let expected = relative(&(self.last.start_from_camera * self.step));
         let by_features = sparse.map(|sparse| relative(&sparse.reference_from_camera));
         let cost = |motion: &Isometry3<f64>| misfit(&reference.view, &view.view, motion);
-        let start = by_features.filter(|found| cost(found) <= cost(&as_before)).unwrap_or(as_before);
+        let start = by_features.filter(|found| cost(found) <= cost(&expected)).unwrap_or(expected);
         let found = align(&reference.view, &view.view, &start, self.params.refine.max_weakest_sigma).ok()?;
         let start_from_view = start_from_keyframe * found.camera_from_reference.inverse();
         let carry = adjoint(&start_from_view);

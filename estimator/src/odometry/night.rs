@@ -46,7 +46,7 @@ impl NightFrameBuilder {
             })
             .unzip();
         let view = self.views.view(&albedo.levels, &albedo.depth);
-        let view = Some(FrameView { view, colour_from_camera: self.rig.colour_from_depth });
+        let view = Some(FrameView { view, colour_from_camera: self.rig.colour_from_depth, always: true });
         Frame { features, landmarks, view }
     }
 
