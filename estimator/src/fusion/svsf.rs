@@ -13,9 +13,9 @@ use super::planar::UncertainPose;
 pub struct SvsfParams {
     /// γ, 0–1: the share of the last step's unexplained error that an error may shrink to in this one.
     pub gamma: f64,
-    /// φ, the width of the smoothing boundary layer, in σ of the measurement. Within it the gain falls with the error,
-    /// so that noise is not followed; beyond it the estimate is brought to the measurement whatever the covariances
-    /// say.
+    /// φ, the width of the smoothing boundary layer, in σ of the measurement; wider by as much as the measurement is less
+    /// sure than the prediction. Within it the gain falls with the error, so that noise is not followed; beyond it the
+    /// estimate is brought to the measurement whatever the covariances say.
     pub layer_sigma: f64,
 }
 
@@ -52,7 +52,9 @@ impl SvsfGain {
     fn shares<const M: usize>(&self, seen: &Innovation<M>) -> SVector<f64, M> {
         SVector::from_fn(|i, _| {
             let (error, last) = (seen.error[i].abs(), seen.last_posterior[i].abs());
-            let layer = (self.0.layer_sigma * seen.noise[(i, i)].max(0.0).sqrt()).max(NARROWEST_LAYER);
+            let [noise, predicted] = [seen.noise[(i, i)], seen.predicted[(i, i)]].map(|variance| variance.max(0.0).sqrt());
+            let widened = if predicted < noise { noise / predicted.max(NARROWEST_LAYER) } else { 1.0 };
+            let layer = (self.0.layer_sigma * noise * widened).max(NARROWEST_LAYER);
             (error + self.0.gamma * last) / error.max(layer)
         })
     }
@@ -86,21 +88,33 @@ mod tests {
     #[test]
     fn beyond_the_layer_the_estimate_goes_all_the_way() {
         let params = SvsfParams { gamma: 0.0, layer_sigma: 2.0 };
-        let mut svsf = Svsf::new(UncertainPose::default(), params, GateParams::open());
+        let mut svsf = Svsf::new(at(0.0, 0.0, 0.0), params, GateParams::open());
         // σ is 0.1, so the layer is 0.2: x and heading lie beyond it, the heading the short way round; y half way in.
         svsf.update_pose(&at(0.5, 0.1, -0.3));
         let estimate = svsf.estimate();
         assert!((estimate.pose.to_vector() - Vector3::new(0.5, 0.05, -0.3)).norm() < 1e-12);
-        // Joseph with K = 1 leaves R, with K = 1/2 and nothing to doubt before R/4.
-        assert!((estimate.covariance.diagonal() - Vector3::new(0.01, 0.0025, 0.01)).norm() < 1e-12);
+        // Joseph with K = 1 leaves R, with K = 1/2 a quarter of P and of R.
+        assert!((estimate.covariance.diagonal() - Vector3::new(0.01, 0.005, 0.01)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_less_sure_than_the_prediction_has_a_wider_layer() {
+        let params = SvsfParams { gamma: 0.0, layer_sigma: 2.0 };
+        let mut svsf = Svsf::new(at(0.0, 0.0, 0.0), params, GateParams::open());
+        // σ is 0.5, five times the prediction's: the layer is 2 · 0.5 · 5.
+        let doubtful = UncertainPose { covariance: Matrix3::identity() * 0.25, ..at(1.0, 0.0, 0.0) };
+        svsf.update_pose(&doubtful);
+        assert!((svsf.estimate().pose.x - 0.2).abs() < 1e-12);
     }
 
     #[test]
     fn what_was_left_unexplained_is_added_to_the_next_step() {
         let params = SvsfParams { gamma: 0.4, layer_sigma: 2.0 };
-        let mut svsf = Svsf::new(UncertainPose::default(), params, GateParams::open());
+        let doubtful = UncertainPose { covariance: Matrix3::identity(), ..UncertainPose::default() };
+        let mut svsf = Svsf::new(doubtful, params, GateParams::open());
         svsf.update_pose(&at(0.1, 0.0, 0.0));
         assert!((svsf.estimate().pose.x - 0.05).abs() < 1e-12);
+        svsf.predict(&doubtful);
         // E = 0.05 again and E_{k|k} = 0.05: K = (0.05 + 0.4 · 0.05) / 0.2.
         svsf.update_pose(&at(0.1, 0.0, 0.0));
         assert!((svsf.estimate().pose.x - (0.05 + 0.35 * 0.05)).abs() < 1e-12);
