@@ -1,6 +1,6 @@
 //! What the edges about a point look like, mostly whatever their contrast's sign.
 
-use super::edges::{Edges, ORIENTATIONS};
+use super::edges::{Edges, ORIENTATIONS, Seen};
 
 /// Samples along the window's side.
 const SIDE: usize = 4;
@@ -22,9 +22,9 @@ impl Descriptor {
     /// About (x, y), pixels.
     pub fn at(edges: &Edges, x: f32, y: f32) -> Self {
         let (mut unsigned, mut signed) = ([0.0; HALF], [0.0; HALF]);
-        let offset = |index: usize| STEP * (index as f32 - (SIDE - 1) as f32 / 2.0);
-        for sample in 0..SIDE * SIDE {
-            let seen = edges.at(x + offset(sample % SIDE), y + offset(sample / SIDE));
+        let along = |middle: f32| std::array::from_fn(|k| middle + STEP * (k as f32 - (SIDE - 1) as f32 / 2.0));
+        let seen: [[Seen; SIDE]; SIDE] = edges.at(along(x), along(y));
+        for (sample, seen) in seen.iter().flatten().enumerate() {
             unsigned[sample * ORIENTATIONS..][..ORIENTATIONS].copy_from_slice(&seen.unsigned);
             signed[sample * ORIENTATIONS..][..ORIENTATIONS].copy_from_slice(&seen.signed);
         }

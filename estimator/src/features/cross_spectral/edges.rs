@@ -102,26 +102,31 @@ impl Edges {
         }
     }
 
-    /// The edges about (x, y), pixels; outside the image those of its border. Of an image without pixels: none.
-    pub fn at(&self, x: f32, y: f32) -> Seen {
-        let mut sum = Seen::default();
+    /// The edges about each place of columns `xs` and rows `ys`, pixels; outside the image those of its border. Of an image
+    /// without pixels: none.
+    pub fn at<const N: usize>(&self, xs: [f32; N], ys: [f32; N]) -> [[Seen; N]; N] {
+        let mut found = [[Seen::default(); N]; N];
         if self.cells.is_empty() {
-            return sum;
+            return found;
         }
-        let ((x, x_share), (y, y_share)) = (place(x, self.columns), place(y, self.rows));
-        let (right, below) = ((x + 1).min(self.columns - 1), (y + 1).min(self.rows - 1) * self.columns);
-        let row = y * self.columns;
-        let shares = [
-            (row + x, (1.0 - x_share) * (1.0 - y_share)),
-            (row + right, x_share * (1.0 - y_share)),
-            (below + x, (1.0 - x_share) * y_share),
-            (below + right, x_share * y_share),
-        ];
-        for (index, share) in shares {
-            accumulate(&mut sum.unsigned, &self.cells[index].unsigned, share);
-            accumulate(&mut sum.signed, &self.cells[index].signed, share);
+        let columns = xs.map(|x| place(x, self.columns));
+        for (found, y) in found.iter_mut().zip(ys) {
+            let (row, below, share) = place(y, self.rows);
+            let row_at = |row: usize| &self.cells[row * self.columns..][..self.columns];
+            let (row, below) = (row_at(row), row_at(below));
+            for (found, (left, right, along)) in found.iter_mut().zip(columns) {
+                let shares =
+                    [(1.0 - along) * (1.0 - share), along * (1.0 - share), (1.0 - along) * share, along * share];
+                let cells = [&row[left], &row[right], &below[left], &below[right]];
+                for k in 0..ORIENTATIONS {
+                    let sum = |of: fn(&Seen) -> &[f32; ORIENTATIONS]| {
+                        (0..4).map(|corner| shares[corner] * of(cells[corner])[k]).sum()
+                    };
+                    (found.unsigned[k], found.signed[k]) = (sum(|seen| &seen.unsigned), sum(|seen| &seen.signed));
+                }
+            }
         }
-        sum
+        found
     }
 }
 
@@ -134,15 +139,15 @@ fn seen(steep: &[f32; DIRECTIONS]) -> Seen {
     }
 }
 
-/// A pixel coordinate as a cell and the share of the next one.
-fn place(coordinate: f32, cells: usize) -> (usize, f32) {
+/// A pixel coordinate as a cell, the next one, and the share of that.
+fn place(coordinate: f32, cells: usize) -> (usize, usize, f32) {
     let middle = (CELL - 1) as f32 / 2.0;
-    let in_cells = ((coordinate - middle) / CELL as f32).clamp(0.0, (cells - 1) as f32);
+    let in_cells = ((coordinate - middle) * (1.0 / CELL as f32)).clamp(0.0, (cells - 1) as f32);
     let whole = in_cells as usize;
-    (whole, in_cells - whole as f32)
+    (whole, (whole + 1).min(cells - 1), in_cells - whole as f32)
 }
 
-fn accumulate<const N: usize>(sum: &mut [f32; N], cell: &[f32; N], weight: f32) {
+fn accumulate(sum: &mut [f32; DIRECTIONS], cell: &[f32; DIRECTIONS], weight: f32) {
     for (sum, value) in sum.iter_mut().zip(cell) {
         *sum += weight * value;
     }
@@ -150,10 +155,14 @@ fn accumulate<const N: usize>(sum: &mut [f32; N], cell: &[f32; N], weight: f32) 
 
 fn blur_rows(from: &[[f32; DIRECTIONS]], to: &mut [[f32; DIRECTIONS]], columns: usize) {
     let reach = COARSE.len() / 2;
+    let mut padded = vec![[0.0; DIRECTIONS]; columns + 2 * reach];
     for (from, to) in from.chunks_exact(columns).zip(to.chunks_exact_mut(columns)) {
-        for (x, out) in to.iter_mut().enumerate() {
-            for (tap, weight) in COARSE.iter().enumerate() {
-                accumulate(out, &from[(x + tap).saturating_sub(reach).min(columns - 1)], *weight);
+        padded[..reach].fill(from[0]);
+        padded[reach..columns + reach].copy_from_slice(from);
+        padded[columns + reach..].fill(from[columns - 1]);
+        for (out, taps) in to.iter_mut().zip(padded.windows(COARSE.len())) {
+            for (cell, weight) in taps.iter().zip(&COARSE) {
+                accumulate(out, cell, *weight);
             }
         }
     }
@@ -183,18 +192,10 @@ fn add(cell: &mut [f32; DIRECTIONS], dx: i32, dy: i32) {
     // 256ths, over two pixels.
     const UNIT: f32 = 1.0 / 512.0;
     let (along_x, along_y) = (dx.abs(), dy.abs());
-    let axis = match (along_x >= along_y, dx >= 0, dy >= 0) {
-        (true, true, _) => 0,
-        (true, false, _) => 4,
-        (false, _, true) => 2,
-        (false, _, false) => 6,
-    };
-    let diagonal = match (dx >= 0, dy >= 0) {
-        (true, true) => 1,
-        (false, true) => 3,
-        (false, false) => 5,
-        (true, false) => 7,
-    };
+    // Looked up: which way an edge points, no processor can guess.
+    let index = usize::from(along_x < along_y) + 2 * usize::from(dx < 0) + 4 * usize::from(dy < 0);
+    let axis = [0, 2, 4, 2, 0, 6, 4, 6][index];
+    let diagonal = [1, 1, 3, 3, 7, 7, 5, 5][index];
     cell[axis] += (along_x - along_y).abs() as f32 * UNIT;
     cell[diagonal] += along_x.min(along_y) as f32 * (UNIT * std::f32::consts::SQRT_2);
 }
@@ -218,7 +219,7 @@ mod tests {
         let mut edges = Edges::default();
         for direction in 0..DIRECTIONS {
             edges.compute(&slope(direction as f32 * std::f32::consts::FRAC_PI_4));
-            let Seen { unsigned, signed } = edges.at(24.0, 24.0);
+            let [[Seen { unsigned, signed }]] = edges.at([24.0], [24.0]);
             let orientation = direction % ORIENTATIONS;
             // Two levels a pixel, four pixels a cell.
             assert!((unsigned[orientation].powi(2) - 8.0).abs() < 0.4, "{direction}: {unsigned:?}");
@@ -234,7 +235,7 @@ mod tests {
         let mut edges = Edges::default();
         for (width, height) in [(0, 0), (1, 1), (2, 1), (3, 40)] {
             edges.compute(&GrayImage::filled(width, height, 77));
-            assert_eq!(edges.at(0.4, 30.0), Seen::default());
+            assert_eq!(edges.at([0.4], [30.0]), [[Seen::default()]]);
         }
     }
 }
