@@ -249,7 +249,6 @@ mod tests {
             sum += error.dot(&(motion.covariance.try_inverse().unwrap() * error));
         }
         let (mean, bias) = (sum / runs as f64, bias / runs as f64);
-        println!("χ² {mean} of 6, length off by {bias} in the mean");
         assert!((4.0..9.0).contains(&mean), "{mean}");
         assert!(bias.abs() < 0.006, "{bias}");
     }
@@ -269,7 +268,6 @@ mod tests {
         }
         let mean = |value: &dyn Fn(&(f64, f64)) -> f64| lengths.iter().map(value).sum::<f64>() / lengths.len() as f64;
         let (error, sigma) = (mean(&|length| length.0), mean(&|length| length.1));
-        println!("length off by {error}, σ {sigma}");
         assert!(error < -0.01 && (0.5..2.0).contains(&(sigma / -error)), "{error} {sigma}");
     }
 

@@ -297,7 +297,6 @@ mod tests {
         assert_eq!(failure, None);
         let gone = pose.start_from_camera.translation.vector;
         let sigma = pose.covariance[(2, 2)].sqrt();
-        println!("{gone}, σ {sigma}, instead of {}", expected.translation.vector);
         assert!((gone - expected.translation.vector).norm() < 0.02, "{gone}");
         assert!((0.005..0.1).contains(&sigma), "{sigma}");
     }

@@ -10,6 +10,8 @@ use crate::image::{GrayImage, InfraredImage};
 const NEAREST: f64 = 0.5;
 /// What the believed calibration may be off by, rows and columns; pixels. The best of them leave a fifth of a pixel.
 const SLACK: f64 = 2.0;
+/// Half the edge of the window that a match looks at: what is not seen begins with an edge of its own. Pixels.
+const WINDOW: f32 = 16.0;
 /// Levels of an infrared pixel.
 const LEVELS: usize = 1024;
 
@@ -75,7 +77,19 @@ impl Stereo {
     ) -> Vec<Option<InverseDepth>> {
         let aligned = self.aligned(infrared, luma);
         let matches = self.matcher.match_points(places, luma, &aligned, &self.band);
-        matches.into_iter().map(|found| found.map(|found| self.triangulated(&found))).collect()
+        let triangulated = |found: CrossMatch| self.is_seen_about(found.infrared).then(|| self.triangulated(&found));
+        matches.into_iter().map(|found| found.and_then(triangulated)).collect()
+    }
+
+    /// Whether the infrared camera sees all that is about a pixel of the colour camera.
+    fn is_seen_about(&self, (x, y): (f32, f32)) -> bool {
+        let (width, height) = self.colour.size();
+        [(-WINDOW, -WINDOW), (WINDOW, -WINDOW), (-WINDOW, WINDOW), (WINDOW, WINDOW)].iter().all(|(dx, dy)| {
+            // At the colour image's own border nothing is missing.
+            let column = (x + dx).clamp(0.0, (width - 1) as f32) as usize;
+            let row = (y + dy).clamp(0.0, (height - 1) as f32) as usize;
+            self.places[row * width + column].is_some()
+        })
     }
 
     /// What the infrared camera would see if it looked as the colour camera does, with the colour image's grey levels

@@ -77,7 +77,6 @@ fn of_a_slanted_plane(seed: u64, brightness: impl Fn(&Leaf) -> f32) -> (usize, (
     let band = Band { rows: 2.0, columns: (0.0, 20.0) };
     let found = CrossSpectral::new(CrossSpectralParams::default()).match_images(&colour, &infrared, Some(&band));
     let shares = shares(&found, |x, y| (x + 4.0 + slope * x, y));
-    println!("{} matches: {shares:?}", found.len());
     (found.len(), shares)
 }
 
@@ -113,7 +112,6 @@ fn an_image_and_its_negative_match_anywhere() {
     let infrared = leaves.seen(|leaf| 255.0 - 0.5 * leaf.colour, back);
     let found = CrossSpectral::new(CrossSpectralParams::default()).match_images(&colour, &infrared, None);
     let (_, near, _) = shares(&found, warped);
-    println!("{} matches, {near}", found.len());
     assert!(found.len() > 150 && near > 0.9, "{} {near}", found.len());
 }
 
@@ -139,6 +137,5 @@ fn what_lies_outside_the_band_is_not_found() {
     let outside = Band { rows: 2.0, columns: (0.0, 20.0) };
     let all = matcher.match_images(&colour, &infrared, Some(&inside)).len();
     let wrong = matcher.match_images(&colour, &infrared, Some(&outside)).len();
-    println!("{all} {wrong}");
     assert!(all > 100 && wrong * 20 < all, "{wrong} of {all}");
 }
