@@ -8,7 +8,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::camera::{DepthCamera, DepthEncoding, Rig};
+use crate::camera::{CameraModel, DepthCamera, DepthEncoding, Rig};
 use crate::image::{DepthImage, Image, InfraredImage};
 
 pub const WIDTH: usize = 640;
@@ -87,6 +87,20 @@ impl DarkRoom {
             albedo.pixels_mut()[index] = reflected as f32;
         }
         Seen { infrared, depth, albedo }
+    }
+
+    /// What the surfaces reflect where any camera looks; a pixel is the mean of four places in it.
+    pub fn albedo(&self, camera: &CameraModel, world_from_camera: &Isometry3<f64>) -> Image<f32> {
+        let pixel = |index: usize| {
+            let place = |k: usize| {
+                let (x, y) = ((index % camera.width) as f64, (index / camera.width) as f64);
+                let pixel = Point2::new(x - 0.25 + 0.5 * (k % 2) as f64, y - 0.25 + 0.5 * (k / 2) as f64);
+                self.meet(world_from_camera, &camera.ray(&pixel)).map_or(0.0, |(_, reflected, _)| reflected)
+            };
+            ((0..4).map(place).sum::<f64>() / 4.0) as f32
+        };
+        let pixels = (0..camera.width * camera.height).map(pixel).collect();
+        Image::from_pixels(camera.width, camera.height, pixels).expect("one value a pixel")
     }
 
     /// Z, albedo and cosine of incidence where a ray through the camera meets the nearest wall.

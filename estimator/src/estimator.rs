@@ -189,7 +189,9 @@ impl Localizer for Estimator {
     }
 
     fn wanted_streams(&self) -> Streams {
-        self.modes.wanted()
+        let wanted = self.modes.wanted();
+        let stereo = self.modes.mode() == Mode::Outdoor && self.vision.wants_infrared();
+        Streams { infrared: wanted.infrared || stereo, ..wanted }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::features::surf::SurfParams;
 use crate::fusion::{FusionParams, GyroParams, WheelOdometryParams};
 use crate::mode::{Breakpoints, ModeChoice, SwitchParams};
 use crate::motion::{PaperMotionParams, RansacParams, RefineParams};
-use crate::odometry::KeyframeParams;
+use crate::odometry::{KeyframeParams, OutdoorParams};
 use crate::structure::{DepthNoise, MAX_WINDOW};
 
 /// All that can be set. In a file every key carries its unit.
@@ -39,6 +39,8 @@ pub struct EstimatorParams {
     pub keyframes: KeyframeParams,
     /// Reject and refit (variant `paper`).
     pub paper: PaperMotionParams,
+    /// Odometry without depth (mode `outdoor`).
+    pub outdoor: OutdoorParams,
     /// Wheels and visual odometry together.
     pub fusion: FusionParams,
 }
@@ -78,6 +80,7 @@ impl EstimatorParams {
             share("keyframes.systematic_share", self.keyframes.systematic_share),
             positive("keyframes.lost_sigma_m", self.keyframes.lost_translation),
             positive("keyframes.lost_sigma_rad", self.keyframes.lost_rotation),
+            positive("outdoor.calibration_sigma_px", self.outdoor.calibration_sigma),
             positive("paper.max_distance_m", self.paper.max_distance),
             at_least_one("paper.max_iterations", self.paper.max_iterations),
             positive("paper.max_depth_m", self.paper.max_depth),

@@ -20,6 +20,10 @@ use crate::time::Timestamp;
 
 /// Images further apart than this are not of one frame: half a period at 30 Hz, rounded up. Seconds.
 const MAX_PAIR_GAP: f64 = 0.02;
+/// Images further apart than this are no stereo pair, seconds: at 1 m/s a millimetre, of a baseline of 25.
+const MAX_STEREO_GAP: f64 = 0.001;
+/// So long an infrared stream may be silent before colour no longer waits for it, seconds: three frames.
+const INFRARED_SILENT: f64 = 0.1;
 
 /// So long is remembered what the wheels said, seconds: longer than an image takes.
 const WHEELS_KEPT: f64 = 1.0;
@@ -125,7 +129,7 @@ impl Vision {
         Self {
             by_day: FrameBuilder::new(params, rig),
             by_night: NightFrameBuilder::new(params, rig),
-            by_bearing: ByBearing::new(params, &rig.colour),
+            by_bearing: ByBearing::new(params, rig),
             odometry: Odometry::new(params),
             pose: CameraPose::start(),
             wheels: VecDeque::new(),
@@ -171,6 +175,11 @@ impl Vision {
     /// Takes an infrared image.
     pub fn take_infrared(&mut self, time: Timestamp, image: Arc<InfraredImage>) -> Result<(), Rejection> {
         self.infrared.take(time, image)
+    }
+
+    /// Whether infrared is of use out of doors.
+    pub fn wants_infrared(&self) -> bool {
+        self.by_bearing.wants_infrared()
     }
 
     /// Takes a depth image.
@@ -242,11 +251,21 @@ impl Vision {
         self.last < Some(time)
     }
 
-    /// The direction from colour, the length from the wheels.
+    /// The direction from colour, the length from the wheels or from infrared beside it.
     fn look_at_bearings(&mut self) -> Option<(VisualPose, Option<MotionFailure>)> {
         let (time, rgb) = self.rgb.image.clone().filter(|(time, _)| self.is_new(*time))?;
+        let mut infrared = None;
+        if self.by_bearing.wants_infrared()
+            && let Some((taken, image)) = &self.infrared.image
+        {
+            let behind = time.since(*taken);
+            if behind > MAX_STEREO_GAP && behind < INFRARED_SILENT {
+                return None;
+            }
+            infrared = (behind.abs() <= MAX_STEREO_GAP).then(|| Arc::clone(image));
+        }
         let odom_from_camera = self.camera_by_wheels(time)?;
-        let tracked = self.by_bearing.track(&rgb, &odom_from_camera, &mut self.observer);
+        let tracked = self.by_bearing.track(&rgb, infrared.as_deref(), &odom_from_camera, &mut self.observer);
         (self.observer)(Stage::Done);
         let Some((features, tracking)) = tracked else {
             self.put_down(time, 0, Tracking::none());

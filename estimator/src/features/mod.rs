@@ -1,4 +1,5 @@
-//! Points that can be found again: SURF and the matching of its descriptors.
+//! Points that can be found again: SURF and the matching of its descriptors; the same across colour and infrared.
 
+pub mod cross_spectral;
 pub mod matching;
 pub mod surf;

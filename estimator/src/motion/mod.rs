@@ -1,9 +1,11 @@
 //! Rigid motion from matched 3D points: `rigid` (closed form, paper A Eq. 4) inside `ransac`, then either the
 //! paper's reject-and-refit (`paper`) or least squares weighted by the points' uncertainty (`refine`); or from all pixels
-//! of two views (`dense`); or, without depth, from rays alone (`epipolar`).
+//! of two views (`dense`); or, without depth, from rays alone (`epipolar`), or from
+//! rays with the inverse depths of a short baseline (`inverse_depth`).
 
 mod dense;
 mod epipolar;
+mod inverse_depth;
 mod paper;
 mod ransac;
 mod refine;
@@ -16,6 +18,7 @@ use crate::structure::Landmark;
 
 pub use dense::{DenseMotion, align, misfit};
 pub use epipolar::{EpipolarMotion, RayPair, epipolar_motion};
+pub use inverse_depth::{DepthPair, Expected, inverse_depth_motion};
 pub use paper::{PaperMotionParams, icp_surf};
 pub use ransac::{RansacParams, ransac};
 pub use refine::{RefineParams, refine};

@@ -1,15 +1,21 @@
-//! Odometry without depth: features of colour images say how the camera turned and which way it went, the wheels how far.
+//! Odometry without depth: features of colour images say how the camera turned and which way it went, the wheels how far;
+//! or, where the infrared image was taken at the same instant and the parameters say so, the stereo camera that the two
+//! make (paper A, §3.2).
 
 use nalgebra::{Isometry3, Point2};
+use serde::{Deserialize, Serialize};
 
-use crate::camera::CameraModel;
+use crate::camera::{CameraModel, Rig};
 use crate::estimator::Stage;
 use crate::features::matching::match_features;
 use crate::features::surf::{Feature, Surf};
 use crate::geometry::adjoint;
-use crate::image::RgbImage;
-use crate::motion::{MotionFailure, RayPair, epipolar_motion};
+use crate::image::{GrayImage, InfraredImage, RgbImage};
+use crate::motion::{
+    DepthPair, EpipolarMotion, Expected, MotionFailure, RayPair, epipolar_motion, inverse_depth_motion,
+};
 use crate::params::EstimatorParams;
+use crate::structure::{InverseDepth, Stereo};
 
 use super::{CameraPose, FeatureTrack, Tracking};
 
@@ -31,8 +37,44 @@ const STRAY: f64 = 0.02;
 /// mismatches bend the valley in which going aside and turning look alike. From simulated pairs, one in ten mismatched.
 const SHARED: f64 = 9.0;
 
+/// Fewest pairs with a depth by stereo that say how far; with fewer the wheels do.
+const MIN_MEASURED: usize = 30;
+/// σ of the way's length before stereo says anything, metres.
+const UNKNOWN: f64 = 3.0;
+
+/// How far the camera went, out of doors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OutdoorMethod {
+    /// By the wheels.
+    #[default]
+    Temporal,
+    /// By the disparity between colour and infrared, as in paper A; by the wheels where there is none.
+    Stereo,
+}
+
+/// Parameters of odometry without depth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OutdoorParams {
+    /// What says how far the camera went.
+    pub method: OutdoorMethod,
+    /// σ of all disparities together, by what the calibration leaves: a tenth of a pixel of either camera's centre and a
+    /// hundredth of a degree between them make 0.17. Pixels.
+    #[serde(rename = "calibration_sigma_px")]
+    pub calibration_sigma: f64,
+}
+
+impl Default for OutdoorParams {
+    fn default() -> Self {
+        Self { method: OutdoorMethod::default(), calibration_sigma: 0.17 }
+    }
+}
+
 struct Keyframe {
     features: Vec<Feature>,
+    /// By stereo, of each feature; empty without.
+    inverse_depths: Vec<Option<InverseDepth>>,
     pose: CameraPose,
     /// By the wheels.
     odom_from_camera: Isometry3<f64>,
@@ -43,15 +85,23 @@ pub struct ByBearing {
     params: EstimatorParams,
     camera: CameraModel,
     surf: Surf,
+    stereo: Option<Stereo>,
     keyframe: Option<Keyframe>,
     last: CameraPose,
 }
 
 impl ByBearing {
     /// Nothing seen yet.
-    pub fn new(params: &EstimatorParams, camera: &CameraModel) -> Self {
+    pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         let surf = Surf::new(params.surf);
-        Self { params: params.clone(), camera: *camera, surf, keyframe: None, last: CameraPose::start() }
+        let stereo = (params.outdoor.method == OutdoorMethod::Stereo).then(|| Stereo::new(rig)).flatten();
+        let (keyframe, last) = (None, CameraPose::start());
+        Self { params: params.clone(), camera: rig.colour, surf, stereo, keyframe, last }
+    }
+
+    /// Whether the infrared image of the same instant is of use.
+    pub fn wants_infrared(&self) -> bool {
+        self.stereo.is_some()
     }
 
     /// Gives the keyframe up: what comes next is seen from `pose`.
@@ -60,18 +110,20 @@ impl ByBearing {
     }
 
     /// Follows one frame that the wheels say was taken at `odom_from_camera`: how many features it has, and its pose.
-    /// `None` while the way is too short to tell.
+    /// `None` while the way is too short to tell. `infrared` is of the same instant.
     pub fn track(
         &mut self,
         rgb: &RgbImage,
+        infrared: Option<&InfraredImage>,
         odom_from_camera: &Isometry3<f64>,
         stage: &mut dyn FnMut(Stage),
     ) -> Option<(usize, Tracking)> {
         let Some(keyframe) = &self.keyframe else {
             stage(Stage::Features);
-            let features = self.surf.detect(&rgb.to_luma());
+            let luma = rgb.to_luma();
+            let features = self.surf.detect(&luma);
             let found = features.len();
-            self.remember(features, odom_from_camera);
+            self.remember(features, &luma, infrared, odom_from_camera);
             return Some((found, self.failed(MotionFailure::NoReference, Vec::new(), true)));
         };
         let start = odom_from_camera.inverse() * keyframe.odom_from_camera;
@@ -79,7 +131,8 @@ impl ByBearing {
             return None;
         }
         stage(Stage::Features);
-        let features = self.surf.detect(&rgb.to_luma());
+        let luma = rgb.to_luma();
+        let features = self.surf.detect(&luma);
         let found = features.len();
         stage(Stage::Matching);
         let matches = match_features(&features, &keyframe.features, &self.params.matching);
@@ -99,13 +152,15 @@ impl ByBearing {
             .map(|found| FeatureTrack::between(&keyframe.features[found.to], &features[found.from]))
             .collect();
         stage(Stage::Motion);
-        let motion = match epipolar_motion(&pairs, &start, STRAY, MIN_INLIERS) {
+        let inverse_depths: Vec<Option<InverseDepth>> =
+            matches.iter().map(|found| *keyframe.inverse_depths.get(found.to)?).collect();
+        let motion = match self.motion(&pairs, &inverse_depths, &start) {
             Ok(motion) => motion,
             Err(failure) => {
                 // Too far gone to be recognised: the wheels alone have been right up to here.
                 let is_far = start.translation.vector.norm() > MAX_WAY;
                 if is_far {
-                    self.remember(features, odom_from_camera);
+                    self.remember(features, &luma, infrared, odom_from_camera);
                 }
                 return Some((found, self.failed(failure, tracks, is_far)));
             }
@@ -124,13 +179,45 @@ impl ByBearing {
             || (flow.len() as f64) < LEAST_OVERLAP * found as f64;
         self.last = CameraPose { start_from_camera, covariance };
         if is_keyframe {
-            self.remember(features, odom_from_camera);
+            self.remember(features, &luma, infrared, odom_from_camera);
         }
         Some((found, Tracking { pose: self.last.clone(), failure: None, tracks, keyframe: is_keyframe }))
     }
 
-    fn remember(&mut self, features: Vec<Feature>, odom_from_camera: &Isometry3<f64>) {
-        self.keyframe = Some(Keyframe { features, pose: self.last.clone(), odom_from_camera: *odom_from_camera });
+    /// Near where the wheels say, `start`; with its length, unless stereo knows better.
+    fn motion(
+        &self,
+        pairs: &[RayPair],
+        inverse_depths: &[Option<InverseDepth>],
+        start: &Isometry3<f64>,
+    ) -> Result<EpipolarMotion, MotionFailure> {
+        let measured = inverse_depths.iter().flatten().count();
+        let Some(stereo) = self.stereo.as_ref().filter(|_| measured >= MIN_MEASURED) else {
+            return epipolar_motion(pairs, start, STRAY, MIN_INLIERS);
+        };
+        let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {
+            let inverse_depth = inverse_depth.map_or(DepthPair::UNMEASURED, |found| (found.value, found.sigma));
+            DepthPair { rays, inverse_depth }
+        });
+        let expected = Expected { camera_from_reference: *start, stray: STRAY, along: UNKNOWN };
+        let shared_sigma = stereo.shared_sigma(self.params.outdoor.calibration_sigma);
+        inverse_depth_motion(&with_depth.collect::<Vec<_>>(), &expected, shared_sigma, MIN_INLIERS)
+    }
+
+    fn remember(
+        &mut self,
+        features: Vec<Feature>,
+        luma: &GrayImage,
+        infrared: Option<&InfraredImage>,
+        odom_from_camera: &Isometry3<f64>,
+    ) {
+        let places: Vec<(f32, f32)> = features.iter().map(|feature| (feature.x, feature.y)).collect();
+        let inverse_depths = match (&mut self.stereo, infrared) {
+            (Some(stereo), Some(infrared)) => stereo.inverse_depths(&places, luma, infrared),
+            _ => Vec::new(),
+        };
+        let (pose, odom_from_camera) = (self.last.clone(), *odom_from_camera);
+        self.keyframe = Some(Keyframe { features, inverse_depths, pose, odom_from_camera });
     }
 
     fn failed(&self, failure: MotionFailure, tracks: Vec<FeatureTrack>, keyframe: bool) -> Tracking {
@@ -155,7 +242,7 @@ mod tests {
         };
         let walls = vec![wall(0.9, 0.0, 1.0, 2.5), wall(-0.9, 0.1, 1.0, 3.0), wall(0.0, 1.0, 0.0, 0.6)];
         let room = DarkRoom { walls, ambient: 0.0 };
-        let mut odometry = ByBearing::new(&EstimatorParams::default(), &dark_room::rig().colour);
+        let mut odometry = ByBearing::new(&EstimatorParams::default(), &dark_room::rig());
         let at = |way: f64, turn: f64| Isometry3::new(Vector3::new(0.5 * turn * way, 0.0, way), Vector3::y() * turn);
         let mut last = None;
         for step in 0..=20 {
@@ -164,7 +251,7 @@ mod tests {
             let albedo = room.seen_from(&at(way, turn), u64::from(step as u32)).albedo;
             let grey = albedo.pixels().iter().map(|&share| [(255.0 * share) as u8; 3]).collect();
             let rgb = Image::from_pixels(albedo.width(), albedo.height(), grey).unwrap();
-            let found = odometry.track(&rgb, &at(1.05 * way, 0.9 * turn), &mut |_| {});
+            let found = odometry.track(&rgb, None, &at(1.05 * way, 0.9 * turn), &mut |_| {});
             last = found.map(|(_, tracking)| (tracking, at(1.05 * way, turn))).or(last);
         }
         let (Tracking { pose, failure, .. }, expected) = last.unwrap();
@@ -178,10 +265,47 @@ mod tests {
     }
 
     #[test]
+    fn stereo_says_how_far_whatever_the_wheels_say() {
+        // Walls on either side, the ground, and something far ahead.
+        let wall = |x: f64, y: f64, z: f64, distance: f64| Wall {
+            normal: Vector3::new(x, y, z).normalize(),
+            distance,
+            is_textured: true,
+        };
+        let walls = vec![wall(0.9, 0.0, 1.0, 2.5), wall(-0.9, 0.1, 1.0, 3.0), wall(0.0, 1.0, 0.0, 0.6)];
+        let room = DarkRoom { walls, ambient: 0.0 };
+        let mut rig = dark_room::rig();
+        rig.colour_from_depth.translation.x = -0.025;
+        let outdoor = OutdoorParams { method: OutdoorMethod::Stereo, ..OutdoorParams::default() };
+        let mut odometry = ByBearing::new(&EstimatorParams { outdoor, ..EstimatorParams::default() }, &rig);
+        assert!(odometry.wants_infrared());
+        let mut last = None;
+        for step in 0..=20 {
+            let (way, turn) = (0.03 * f64::from(step), 0.0087 * f64::from(step));
+            let at = |way: f64| Isometry3::new(Vector3::new(0.5 * turn * way, 0.0, way), Vector3::y() * turn);
+            let colour = room.albedo(&rig.colour, &at(way));
+            let grey = colour.pixels().iter().map(|&share| [(255.0 * share) as u8; 3]).collect();
+            let rgb = Image::from_pixels(640, 480, grey).unwrap();
+            let infrared = room.albedo(&rig.depth.model, &(at(way) * rig.colour_from_depth));
+            let reversed = infrared.pixels().iter().map(|&share| (700.0 - 500.0 * share) as u16).collect();
+            let infrared = Image::from_pixels(640, 480, reversed).unwrap();
+            // The wheels spin: they claim a sixth more than there was.
+            let found = odometry.track(&rgb, Some(&infrared), &at(1.17 * way), &mut |_| {});
+            last = found.map(|(_, tracking)| (tracking, at(way))).or(last);
+        }
+        let (Tracking { pose, failure, .. }, expected) = last.unwrap();
+        assert_eq!(failure, None);
+        let gone = pose.start_from_camera.translation.vector;
+        let sigma = pose.covariance[(2, 2)].sqrt();
+        assert!((gone - expected.translation.vector).norm() < 0.02, "{gone}");
+        assert!((0.005..0.1).contains(&sigma), "{sigma}");
+    }
+
+    #[test]
     fn standing_still_says_nothing() {
-        let mut odometry = ByBearing::new(&EstimatorParams::default(), &dark_room::rig().colour);
+        let mut odometry = ByBearing::new(&EstimatorParams::default(), &dark_room::rig());
         let rgb = Image::filled(640, 480, [90; 3]);
-        assert!(odometry.track(&rgb, &Isometry3::identity(), &mut |_| {}).is_some(), "the keyframe");
-        assert!(odometry.track(&rgb, &Isometry3::identity(), &mut |_| {}).is_none());
+        assert!(odometry.track(&rgb, None, &Isometry3::identity(), &mut |_| {}).is_some(), "the keyframe");
+        assert!(odometry.track(&rgb, None, &Isometry3::identity(), &mut |_| {}).is_none());
     }
 }

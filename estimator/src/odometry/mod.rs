@@ -1,6 +1,7 @@
 //! Visual odometry (paper A, §4): features with 3D points from colour and depth (`frame`) or infrared and depth
 //! (`night`), then motion against a window of keyframes (`keyframes`) or, as the paper has it, against the frame before
-//! (`frame_to_frame`). Where there is no depth: the direction from colour, the length from the wheels (`by_bearing`).
+//! (`frame_to_frame`). Where there is no depth: the direction from colour, the length from the wheels or from colour and
+//! infrared as a stereo camera (`by_bearing`).
 
 mod by_bearing;
 mod frame;
@@ -15,7 +16,7 @@ use crate::measurement::Mode;
 use crate::motion::MotionFailure;
 use crate::time::Timestamp;
 
-pub use by_bearing::ByBearing;
+pub use by_bearing::{ByBearing, OutdoorMethod, OutdoorParams};
 pub use frame::{Frame, FrameBuilder, FrameView};
 pub use frame_to_frame::FrameToFrame;
 pub use keyframes::{KeyframeParams, Keyframes};

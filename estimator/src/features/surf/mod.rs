@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::image::GrayImage;
 use descriptor::describe;
 use hessian::Detector;
+pub use hessian::Maximum;
 use integral::IntegralImage;
 
 /// A point of interest and its descriptor.
@@ -78,11 +79,16 @@ impl Surf {
 
     /// Features of `image` at places (x, y) and scales, all in pixels, that are `wanted`: others cost no budget.
     pub fn detect_where(&mut self, image: &GrayImage, wanted: impl Fn(f32, f32, f32) -> bool) -> Vec<Feature> {
+        let kept = self.points(image, wanted);
+        kept.iter().map(|maximum| describe(&self.integral, maximum)).collect()
+    }
+
+    /// The same places, not described.
+    pub fn points(&mut self, image: &GrayImage, wanted: impl Fn(f32, f32, f32) -> bool) -> Vec<Maximum> {
         self.integral.compute(image);
         let mut maxima = self.detector.maxima(&self.integral, self.params.octaves, self.params.min_response);
         maxima.retain(|maximum| wanted(maximum.x, maximum.y, maximum.scale));
-        let kept = spread::spread(maxima, image.size(), self.params.cell, self.params.max_features);
-        kept.iter().map(|maximum| describe(&self.integral, maximum)).collect()
+        spread::spread(maxima, image.size(), self.params.cell, self.params.max_features)
     }
 }
 
