@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix6, SMatrix, Unit, Vector3, Vector6};
 
-use super::MotionFailure;
+use super::{MotionFailure, Scale};
 use crate::geometry::exp_se3;
 
 /// The same thing in two views: the rays to it, z = 1, and σ of either, in the same measure.
@@ -25,6 +25,18 @@ pub struct EpipolarMotion {
     pub covariance: Matrix6<f64>,
     /// For each pair, whether it agrees.
     pub inliers: Vec<bool>,
+}
+
+impl EpipolarMotion {
+    /// The same way with another length, and what is then known of it.
+    pub fn scaled(mut self, scale: &Scale) -> Self {
+        let assumed = self.camera_from_reference.translation.vector;
+        let (along, sigma) = (assumed.normalize(), scale.sigma * assumed.norm());
+        self.camera_from_reference.translation.vector = scale.value * assumed;
+        let mut corner = self.covariance.fixed_view_mut::<3, 3>(0, 0);
+        corner += along * along.transpose() * (sigma * sigma - UNKNOWN * UNKNOWN);
+        self
+    }
 }
 
 /// Rounds, at most.

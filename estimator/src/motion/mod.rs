@@ -1,10 +1,11 @@
 //! Rigid motion from matched 3D points: `rigid` (closed form, paper A Eq. 4) inside `ransac`, then either the
 //! paper's reject-and-refit (`paper`) or least squares weighted by the points' uncertainty (`refine`); or from all pixels
-//! of two views (`dense`); or, without depth, from rays alone (`epipolar`), or from
-//! rays with the inverse depths of a short baseline (`inverse_depth`).
+//! of two views (`dense`); or, without depth, from rays alone (`epipolar`), its length by the ground below (`ground`) or
+//! the inverse depths of a short baseline (`inverse_depth`).
 
 mod dense;
 mod epipolar;
+mod ground;
 mod inverse_depth;
 mod paper;
 mod ransac;
@@ -18,6 +19,7 @@ use crate::structure::Landmark;
 
 pub use dense::{DenseMotion, align, misfit};
 pub use epipolar::{EpipolarMotion, RayPair, epipolar_motion};
+pub use ground::{GroundPlane, Scale, scale_over_ground};
 pub use inverse_depth::{DepthPair, Expected, inverse_depth_motion};
 pub use paper::{PaperMotionParams, icp_surf};
 pub use ransac::{RansacParams, ransac};

@@ -1,8 +1,9 @@
-//! Odometry without depth: features of colour images say how the camera turned and which way it went, the wheels how far;
+//! Odometry without depth: features of colour images say how the camera turned and which way it went; how far, the wheels
+//! and, where enough of it is seen, the ground that passes below;
 //! or, where the infrared image was taken at the same instant and the parameters say so, the stereo camera that the two
 //! make (paper A, §3.2).
 
-use nalgebra::{Isometry3, Point2};
+use nalgebra::{Isometry3, Point2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::camera::{CameraModel, Rig};
@@ -12,7 +13,8 @@ use crate::features::surf::{Feature, Surf};
 use crate::geometry::adjoint;
 use crate::image::{GrayImage, InfraredImage, RgbImage};
 use crate::motion::{
-    DepthPair, EpipolarMotion, Expected, MotionFailure, RayPair, epipolar_motion, inverse_depth_motion,
+    DepthPair, EpipolarMotion, Expected, GroundPlane, MotionFailure, RayPair, epipolar_motion, inverse_depth_motion,
+    scale_over_ground,
 };
 use crate::params::EstimatorParams;
 use crate::structure::{InverseDepth, Stereo};
@@ -71,6 +73,13 @@ impl Default for OutdoorParams {
     }
 }
 
+/// The ground that the robot's wheels stand on, as the colour camera has it; `None` for a camera on the ground or below.
+fn ground(rig: &Rig) -> Option<GroundPlane> {
+    let height = rig.robot_from_colour.translation.z;
+    let down = rig.robot_from_colour.rotation.inverse() * -Vector3::z();
+    (height > 0.0).then_some(GroundPlane { down, height })
+}
+
 struct Keyframe {
     features: Vec<Feature>,
     /// By stereo, of each feature; empty without.
@@ -86,6 +95,8 @@ pub struct ByBearing {
     camera: CameraModel,
     surf: Surf,
     stereo: Option<Stereo>,
+    /// Where the camera is above the ground.
+    ground: Option<GroundPlane>,
     keyframe: Option<Keyframe>,
     last: CameraPose,
 }
@@ -96,7 +107,7 @@ impl ByBearing {
         let surf = Surf::new(params.surf);
         let stereo = (params.outdoor.method == OutdoorMethod::Stereo).then(|| Stereo::new(rig)).flatten();
         let (keyframe, last) = (None, CameraPose::start());
-        Self { params: params.clone(), camera: rig.colour, surf, stereo, keyframe, last }
+        Self { params: params.clone(), camera: rig.colour, surf, stereo, ground: ground(rig), keyframe, last }
     }
 
     /// Whether the infrared image of the same instant is of use.
@@ -193,7 +204,10 @@ impl ByBearing {
     ) -> Result<EpipolarMotion, MotionFailure> {
         let measured = inverse_depths.iter().flatten().count();
         let Some(stereo) = self.stereo.as_ref().filter(|_| measured >= MIN_MEASURED) else {
-            return epipolar_motion(pairs, start, STRAY, MIN_INLIERS);
+            let motion = epipolar_motion(pairs, start, STRAY, MIN_INLIERS)?;
+            let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
+            let scale = self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
+            return Ok(scale.map_or(motion.clone(), |scale| motion.scaled(&scale)));
         };
         let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {
             let inverse_depth = inverse_depth.map_or(DepthPair::UNMEASURED, |found| (found.value, found.sigma));
@@ -227,7 +241,7 @@ impl ByBearing {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{UnitQuaternion, Vector3};
+    use nalgebra::UnitQuaternion;
 
     use super::*;
     use crate::dark_room::{self, DarkRoom, Wall};
