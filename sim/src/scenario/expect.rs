@@ -247,6 +247,27 @@ mod tests {
     }
 
     #[test]
+    fn every_metric_of_the_modes_is_measured_and_may_be_expected() {
+        let score = Score {
+            accuracy_percent: 99.0,
+            latency_s: 0.4,
+            latency_mean_s: f64::NAN,
+            switches: 3,
+            true_changes: 4,
+            useless_s: 0.5,
+        };
+        let metrics = of_the_modes(&score);
+        assert_eq!(metrics.len(), OF_THE_MODES.len() - 1, "all but what is NaN");
+        let in_summary = serde_json::to_value(score).unwrap();
+        for (key, value) in &metrics {
+            assert_eq!(in_summary[key.strip_prefix("modes.").unwrap()].as_f64(), Some(*value), "{key}");
+            expectation(key, None, None, Some(1.0)).check().unwrap();
+        }
+        let ratio = expectation("modes.switches", Some("modes.true_changes"), None, Some(0.75));
+        assert!(judge(&[ratio], &metrics)[0].held);
+    }
+
+    #[test]
     fn an_expectation_that_means_nothing_is_refused() {
         let problem = |expectation: Expectation| expectation.check().unwrap_err().problem;
         assert!(problem(expectation("svfs.ate_m", None, None, Some(1.0))).contains("did you mean `svsf.ate_m`?"));
