@@ -19,6 +19,8 @@ struct InfraredSensor {
     noise_key: u32,
     // Changes when anything moves, as speckle does.
     speckle_key: u32,
+    // Electrons of a pixel by light that makes no image.
+    stray_electrons: f32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;
@@ -85,7 +87,7 @@ fn expose_pixel(id: vec2u) {
     let dots = dot_peak * pattern_light(from_projector) * max(speckle, 0.0);
 
     let light = ((ambient * sensor.bandwidth + glint) / f32(TAPS) + dots) * vignette(camera, vec2f(id));
-    let electrons = light * sensor.electrons_per_radiance;
+    let electrons = light * sensor.electrons_per_radiance + sensor.stray_electrons;
     let noise = normal(hash(sensor.noise_key + index)) * sqrt(sensor.shot_noise * electrons + sensor.read_variance);
     let number = (electrons + noise) * sensor.numbers_per_electron;
     if all(id < camera.size) {

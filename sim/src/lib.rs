@@ -12,6 +12,7 @@ pub mod evaluation;
 mod false_colour;
 pub mod kinect;
 pub mod light;
+pub mod modes;
 pub mod new_folder;
 pub mod physics;
 pub mod random;

@@ -130,13 +130,19 @@ fn every_scenario_holds_in_its_short_form() {
         "night",
         "doorway",
         "campus",
+        "modes/flicker",
+        "modes/clouds",
+        "modes/headlights",
+        "modes/hand",
+        "modes/threshold",
     ];
     let files = names.map(|name| format!("{name}.toml"));
     let output = run(&files.each_ref().map(String::as_str), place.path(), &["--short"], None);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout_of(&output), stderr_of(&output));
     for name in names {
-        assert!(place.path().join(name).join("report.html").is_file(), "{name}");
-        assert!(stdout_of(&output).contains(&format!("{name}: ")), "{}", stdout_of(&output));
+        let stem = name.trim_start_matches("modes/");
+        assert!(place.path().join(stem).join("report.html").is_file(), "{name}");
+        assert!(stdout_of(&output).contains(&format!("{stem}: ")), "{}", stdout_of(&output));
     }
 }
 

@@ -17,7 +17,8 @@ fn check(files: &[&Path], options: &[&str]) -> Output {
 #[test]
 fn every_shipped_scenario_is_ok_in_a_line() {
     let within = |folder| fs::read_dir(shipped(folder)).expect("scenarios").map(|entry| entry.unwrap().path());
-    let files: Vec<_> = within("").chain(within("lights")).filter(|path| path.is_file()).collect();
+    let files: Vec<_> =
+        within("").chain(within("lights")).chain(within("modes")).filter(|path| path.is_file()).collect();
     let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
     for options in [&[][..], &["--short", "--seed", "7"]] {
         let output = check(&files, options);

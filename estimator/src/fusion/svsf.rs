@@ -52,7 +52,8 @@ impl SvsfGain {
     fn shares<const M: usize>(&self, seen: &Innovation<M>) -> SVector<f64, M> {
         SVector::from_fn(|i, _| {
             let (error, last) = (seen.error[i].abs(), seen.last_posterior[i].abs());
-            let [noise, predicted] = [seen.noise[(i, i)], seen.predicted[(i, i)]].map(|variance| variance.max(0.0).sqrt());
+            let [noise, predicted] =
+                [seen.noise[(i, i)], seen.predicted[(i, i)]].map(|variance| variance.max(0.0).sqrt());
             let widened = if predicted < noise { noise / predicted.max(NARROWEST_LAYER) } else { 1.0 };
             let layer = (self.0.layer_sigma * noise * widened).max(NARROWEST_LAYER);
             (error + self.0.gamma * last) / error.max(layer)

@@ -1,5 +1,9 @@
 //! Image energy: E = mean of I², I being a pixel's value as a share of full scale, 0 to 1 (paper A, equation 20; what is
 //! printed there, ΣI²/(255·N·M), would reach 255).
+//!
+//! Of depth a pixel is worth 1 that has a value, however far away it is, and 0 one that has none. By distance, as the paper's
+//! images have it, a wall 0.4 m ahead would be a hundredth of one at 4 m, and one sparse far corner as much as a near
+//! wall.
 
 use serde::Serialize;
 
@@ -8,8 +12,6 @@ use crate::image::{DepthImage, InfraredImage, RgbImage};
 
 /// Largest infrared value: 10 bits.
 const INFRARED_FULL_SCALE: f64 = 1023.0;
-/// Depth that counts as full, metres: what a Kinect's range is said to be. Farther is no fuller.
-const FULL_DEPTH: f64 = 4.0;
 
 /// Energies of the images of one instant, or their means over many; `None` where there was no such image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -32,9 +34,9 @@ pub fn of_infrared(image: &InfraredImage) -> f64 {
     mean_square(image.pixels(), |number| f64::from(number) / INFRARED_FULL_SCALE)
 }
 
-/// Of a depth image: z up to 4 m, no value counting as 0.
+/// Of a depth image: the share of its pixels with a value.
 pub fn of_depth(image: &DepthImage, camera: &DepthCamera) -> f64 {
-    mean_square(image.pixels(), |value| camera.depth_of(value).map_or(0.0, |z| z.min(FULL_DEPTH) / FULL_DEPTH))
+    mean_square(image.pixels(), |value| f64::from(u8::from(camera.depth_of(value).is_some())))
 }
 
 /// 0 of nothing.
@@ -57,12 +59,13 @@ mod tests {
     }
 
     #[test]
-    fn depth_counts_as_metres_whatever_its_encoding() {
+    fn depth_counts_wherever_it_is() {
         // 5000 units a metre, 0 = no value.
         let camera = Rig::kinect_default().depth;
         assert_eq!(of_depth(&DepthImage::filled(4, 3, 0), &camera), 0.0);
-        assert_eq!(of_depth(&DepthImage::filled(4, 3, 10_000), &camera), 0.25);
-        assert_eq!(of_depth(&DepthImage::filled(4, 3, 50_000), &camera), 1.0, "10 m is no fuller than 4 m");
+        for near_or_far in [2_000, 10_000, 50_000] {
+            assert_eq!(of_depth(&DepthImage::filled(4, 3, near_or_far), &camera), 1.0);
+        }
         let mut half = DepthImage::filled(4, 3, 20_000);
         half.pixels_mut()[..6].fill(0);
         assert_eq!(of_depth(&half, &camera), 0.5);

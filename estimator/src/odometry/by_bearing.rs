@@ -206,7 +206,8 @@ impl ByBearing {
         let Some(stereo) = self.stereo.as_ref().filter(|_| measured >= MIN_MEASURED) else {
             let motion = epipolar_motion(pairs, start, STRAY, MIN_INLIERS)?;
             let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
-            let scale = self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
+            let scale =
+                self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
             return Ok(scale.map_or(motion.clone(), |scale| motion.scaled(&scale)));
         };
         let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {

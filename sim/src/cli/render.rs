@@ -196,7 +196,7 @@ impl<'a> View<'a> {
         let Shot { scenario, robot, .. } = shot;
         let calibration = scenario.kinect.unit();
         let robot_from_infrared = robot.robot_from_camera * calibration.colour_from_infrared;
-        let kinect = Kinect::new(world, calibration, scenario.kinect.into(), scenario.seed)?;
+        let kinect = Kinect::new(world, calibration, (&scenario.kinect).into(), scenario.seed)?;
         let (ground, reach) = (world.ground.clone(), robot.wheelbase() / 2.0);
         let lamp_groups = lamp_groups(world);
         Ok(Self { shot, kinect, robot_from_infrared, ground, lamp_groups, reach })
@@ -209,6 +209,7 @@ impl<'a> View<'a> {
         let Shot { name, scenario, .. } = self.shot;
         let light = scenario.light.at(at, &self.lamp_groups);
         self.kinect.illuminate(&light);
+        self.kinect.cover(scenario.kinect.covered.iter().any(|covered| covered.contains(at)));
         let frame = self.kinect.capture(&self.sweep(place), (at * scenario.kinect.rate).round() as u64)?;
         let true_depth = self.kinect.true_depth()?;
         let camera = self.kinect.calibration().rig(Isometry3::identity()).depth;

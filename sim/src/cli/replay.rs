@@ -34,7 +34,8 @@ DATASET is a folder in the TUM RGB-D layout:
   ir.txt                optional; `timestamp filename` a line; 16-bit grey with 10-bit values
 
 The output folder holds report.html (for reading, one file), summary.json (for machines), truth.tum and one <track>.tum
-for each estimate (for evo), and timeline.csv. It appears whole at the end or not at all; an earlier run's is replaced.
+for each estimate (for evo), timeline.csv, and modes.csv. It appears whole at the end or not at all; an earlier run's is
+replaced.
 
 The table shows, per track: ATE, the RMSE of the position after rigid alignment (m); RPE, the RMSE of the motion over
 1 s (m and °); drift, translation error over length travelled (%); frames; lost, the frames that gave no motion; and the

@@ -22,8 +22,8 @@ Examples:
       other noise and slip, and a robot that goes by its wheels alone
 
 The robot drives its path on its own estimate, seen through a simulated Kinect. The output folder holds report.html (for
-reading, one file), summary.json (for machines), truth.tum and one <track>.tum for each estimate (for evo), and
-timeline.csv. It appears whole at the end or not at all; an earlier run's is replaced.
+reading, one file), summary.json (for machines), truth.tum and one <track>.tum for each estimate (for evo),
+timeline.csv, and modes.csv. It appears whole at the end or not at all; an earlier run's is replaced.
 
 Below the table stands what the scenario expects; exit code 1 when something of it was missed. Equal scenarios give equal
 digests, on one graphics driver, whatever the number of threads; images' sizes are part of them, so the quality is, too.";

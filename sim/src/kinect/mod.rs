@@ -5,6 +5,7 @@
 
 pub mod calibration;
 mod exposure;
+mod hand;
 pub mod matcher;
 mod metering;
 pub mod pattern;
@@ -19,7 +20,8 @@ use sunblind_estimator::image::{DepthImage, Image, InfraredImage, RgbImage};
 
 use crate::light::LightState;
 use crate::render::{
-    Adapter, CameraFrame, Frame, Images, Optics, ProjectorLight, RenderError, Renderer, StageCost, Sweep, affine,
+    Adapter, CameraFrame, ColourSensor, Frame, Images, InfraredSensor, Optics, ProjectorLight, RenderError, Renderer,
+    StageCost, Sweep, affine,
 };
 use crate::world::World;
 use calibration::Calibration;
@@ -95,6 +97,8 @@ pub struct Kinect {
     balance: WhiteBalance,
     /// The exposures fit the light.
     settled: bool,
+    /// A hand lies on it.
+    covered: bool,
     /// How long it has been on, seconds.
     on_for: f64,
 }
@@ -123,6 +127,7 @@ impl Kinect {
             infrared_exposure: AutoExposure::infrared(imaging.infrared_exposure),
             balance: WhiteBalance::neutral(),
             settled: false,
+            covered: false,
             on_for: imaging.warm_up,
         })
     }
@@ -140,6 +145,23 @@ impl Kinect {
     /// The exposures of the next frame: colour, infrared.
     pub fn exposures(&self) -> [Exposure; 2] {
         [self.colour_exposure.exposure(), self.infrared_exposure.exposure()]
+    }
+
+    /// The chips as they take the next frame but for the draws of their noise: colour's, infrared's.
+    pub fn chips(&self) -> (ColourSensor, InfraredSensor) {
+        let [colour_exposure, infrared_exposure] = self.exposures();
+        let noise = self.imaging.noise;
+        let mut colour = colour::sensor(colour_exposure, self.balance.gains, noise, 0);
+        let mut infrared = infrared::sensor(infrared_exposure, noise, 0, 0);
+        if self.covered {
+            hand::cover(&mut colour, &mut infrared);
+        }
+        (colour, infrared)
+    }
+
+    /// From the next frame on a hand lies on the device's front, or does no longer.
+    pub fn cover(&mut self, covered: bool) {
+        self.covered = covered;
     }
 
     /// Switches the device off and on again: before the next frame the exposures fit the light anew.
@@ -192,7 +214,16 @@ impl Kinect {
     /// # Errors
     /// The graphics adapter stopped working.
     pub fn true_depth(&self) -> Result<Image<f32>, RenderError> {
-        Ok(image(self.calibration.infrared.size(), self.renderer.true_depth()?))
+        self.true_depth_of_every(1)
+    }
+
+    /// The same of every `step`th pixel, across and down.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    pub fn true_depth_of_every(&self, step: usize) -> Result<Image<f32>, RenderError> {
+        let (width, height) = self.calibration.infrared.size();
+        Ok(image((width.div_ceil(step), height.div_ceil(step)), self.renderer.true_depth(step)?))
     }
 
     /// What the stages of rendering one frame take; the frame itself is thrown away.
@@ -239,14 +270,15 @@ impl Kinect {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(frame);
         let [colour_exposure, infrared_exposure] = self.exposures();
-        let noise = self.imaging.noise;
+        let (colour_sensor, infrared_sensor) = self.chips();
+        let [colour_key, infrared_key] = [random.next_u32(), random.next_u32()];
         let speckle_key = pose_key(&world_from_infrared.middle());
         let world_from_colour = world_from_infrared.of_other(&self.infrared_from_colour);
         Frame {
             colour: self.camera(world_from_colour, colour_exposure, colour::READOUT, colour::VIGNETTING),
-            colour_sensor: colour::sensor(colour_exposure, self.balance.gains, noise, random.next_u32()),
+            colour_sensor: ColourSensor { noise_key: colour_key, ..colour_sensor },
             infrared: self.camera(*world_from_infrared, infrared_exposure, infrared::READOUT, infrared::VIGNETTING),
-            infrared_sensor: infrared::sensor(infrared_exposure, noise, random.next_u32(), speckle_key),
+            infrared_sensor: InfraredSensor { noise_key: infrared_key, speckle_key, ..infrared_sensor },
             projector_turn: warm_up::projector_turn(self.on_for) as f32,
         }
     }

@@ -116,6 +116,7 @@ pub mod infrared {
             speckle_contrast: (on * SPECKLE_CONTRAST) as f32,
             noise_key,
             speckle_key,
+            stray_electrons: 0.0,
         }
     }
 }

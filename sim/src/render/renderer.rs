@@ -171,12 +171,12 @@ impl Renderer {
         Ok(costs)
     }
 
-    /// True depth (z, metres; infinite where there is nothing) of each pixel of the last frame's infrared image. For
-    /// judging depth, never for making it.
+    /// True depth (z, metres; infinite where there is nothing) of each `step`th pixel, across and down, of the last frame's
+    /// infrared image. For judging depth, never for making it.
     ///
     /// # Errors
     /// The adapter stopped working.
-    pub fn true_depth(&self) -> Result<Vec<f32>, RenderError> {
+    pub fn true_depth(&self, step: usize) -> Result<Vec<f32>, RenderError> {
         let view = &self.infrared.view;
         let [width, height] = view.gbuffer_size();
         let row_bytes = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -193,9 +193,11 @@ impl Renderer {
         let (columns, rows) = view.model().size();
         readback.read(&self.gpu, |bytes| {
             let depths: &[f32] = bytemuck::cast_slice(bytes);
-            (0..columns * rows)
-                .map(|index| {
-                    let [x, y] = view.gbuffer_pixel(index % columns, index / columns);
+            let pixels =
+                (0..rows).step_by(step).flat_map(|row| (0..columns).step_by(step).map(move |column| (column, row)));
+            pixels
+                .map(|(column, row)| {
+                    let [x, y] = view.gbuffer_pixel(column, row);
                     NEAR / depths[(y * row_bytes / 4 + x) as usize]
                 })
                 .collect()

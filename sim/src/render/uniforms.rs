@@ -97,6 +97,8 @@ pub struct InfraredSensor {
     pub noise_key: u32,
     /// Another for every place the device is at: speckle stays while nothing moves.
     pub speckle_key: u32,
+    /// Electrons of a pixel by light that makes no image, during the exposure.
+    pub stray_electrons: f32,
 }
 
 #[cfg(test)]
@@ -139,6 +141,6 @@ mod tests {
         assert_same_layout!("colour_sensor", ColourSensor: electrons_per_luminance, read_variance, shot_noise,
             noise_key, level_per_electron, padding);
         assert_same_layout!("infrared_sensor", InfraredSensor: bandwidth, electrons_per_radiance, read_variance,
-            shot_noise, numbers_per_electron, speckle_contrast, noise_key, speckle_key);
+            shot_noise, numbers_per_electron, speckle_contrast, noise_key, speckle_key, stray_electrons);
     }
 }

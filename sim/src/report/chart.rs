@@ -2,6 +2,7 @@
 //! dark, phone and desk; nothing in it but numbers and the labels given here, which must not come from outside.
 
 mod map;
+mod rows;
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -26,6 +27,8 @@ const MOST_POINTS: usize = 4000;
 pub(super) struct Chart {
     x: Scale,
     y: Scale,
+    /// Names that stand for numbers on the y axis.
+    rows: &'static [&'static str],
     body: String,
 }
 
@@ -35,6 +38,7 @@ impl Chart {
         Self {
             x: Scale { from: x.start, to: x.end, start: 0.0, end: AREA_WIDTH },
             y: Scale { from: y.start, to: y.end, start: AREA_HEIGHT, end: 0.0 },
+            rows: &[],
             body: String::new(),
         }
     }
@@ -53,6 +57,7 @@ impl Chart {
         Self {
             x: Scale { from: left, to: right, start: 0.0, end: AREA_WIDTH },
             y: Scale { from: bottom, to: top, start: area_height, end: 0.0 },
+            rows: &[],
             body: String::new(),
         }
     }
@@ -117,10 +122,13 @@ impl Chart {
         let total = TOP + height + BOTTOM;
         let mut grid = String::new();
         let mut labels = String::new();
-        let rows = if height > 200.0 { 6.0 } else { 4.0 };
-        for (value, label) in self.y.ticks(rows) {
-            let y = self.y.at(value);
+        let wanted = if height > 200.0 { 6.0 } else { 4.0 };
+        let ticks = if self.rows.is_empty() { self.y.ticks(wanted) } else { Vec::new() };
+        let lines = ticks.into_iter().map(|(value, label)| (self.y.at(value), label)).inspect(|(y, _)| {
             push(&mut grid, format_args!("M0 {y:.1}h{width}"));
+        });
+        let names = self.rows.iter().enumerate().map(|(row, name)| (self.row_middle(row), (*name).to_owned()));
+        for (y, label) in lines.chain(names) {
             push(&mut labels, format_args!(r#"<text x="-6" y="{:.1}" text-anchor="end">{label}</text>"#, y + 3.5));
         }
         for (value, label) in self.x.ticks(5.0) {

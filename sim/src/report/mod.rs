@@ -13,6 +13,7 @@ mod page;
 mod pictures;
 mod scale;
 mod summary;
+mod switching;
 #[cfg(test)]
 mod tests;
 mod timeline;
@@ -27,8 +28,8 @@ use std::path::{Path, PathBuf};
 use self::judged::Judged;
 use crate::runner::log::RunLog;
 
-/// Writes `summary.json`, `timeline.csv`, `truth.tum` (where there is truth), one `<track>.tum` each and
-/// `report.html` into the folder `out`; the path of the last. Equal logs give equal bytes.
+/// Writes `summary.json`, `timeline.csv`, `modes.csv` (of an estimator that has a mode switch), `truth.tum` (where there
+/// is truth), one `<track>.tum` each and `report.html` into the folder `out`; the path of the last. Equal logs give equal bytes.
 ///
 /// # Errors
 /// What the file system says; `InvalidInput` for a log without tracks, or with a track name that is no plain file stem
@@ -37,6 +38,9 @@ pub fn write(log: &RunLog, out: &Path) -> io::Result<PathBuf> {
     let judged = Judged::new(log)?;
     fs::write(out.join("summary.json"), summary::to_json(&judged)?)?;
     fs::write(out.join("timeline.csv"), timeline::to_csv(log)?)?;
+    if !log.modes.is_empty() {
+        fs::write(out.join("modes.csv"), switching::to_csv(log)?)?;
+    }
     if !log.truth.is_empty() {
         fs::write(out.join("truth.tum"), trajectory::to_tum(log.truth.iter().map(|p| (p.time, p.world_from_body))))?;
     }

@@ -40,6 +40,7 @@ struct Page<'a> {
     path: Vec<Figure>,
     metrics: Vec<Metric>,
     error: Vec<Figure>,
+    modes: Vec<Figure>,
     seen: Vec<Figure>,
     pictures: Option<Pictures>,
     timings: Vec<TrackTiming<'a>>,
@@ -108,6 +109,7 @@ pub(super) fn to_html(judged: &Judged) -> io::Result<String> {
         path: figures::path(judged),
         metrics: metrics(judged),
         error: figures::errors(judged),
+        modes: figures::modes(judged),
         seen: figures::counts(judged),
         pictures: pictures(judged, &tones)?,
         timings: timings(judged),
@@ -197,5 +199,6 @@ fn provenance(judged: &Judged) -> Vec<(&'static str, String)> {
 fn files(judged: &Judged) -> Vec<String> {
     let truth = (!judged.log.truth.is_empty()).then(|| "truth.tum".into());
     let tracks = judged.log.tracks.iter().map(|track| format!("{}.tum", track.name));
-    ["summary.json".into(), "timeline.csv".into()].into_iter().chain(truth).chain(tracks).collect()
+    let modes = (!judged.log.modes.is_empty()).then(|| "modes.csv".into());
+    ["summary.json".into(), "timeline.csv".into()].into_iter().chain(modes).chain(truth).chain(tracks).collect()
 }

@@ -9,6 +9,7 @@ use sunblind_estimator::mode::Energies;
 use super::judged::{Judged, lost_frames, tracked_frames};
 use super::timing::{STAGES, StageTime, Timing};
 use crate::evaluation::Evaluation;
+use crate::modes::Score;
 use crate::runner::log::Track;
 use crate::scenario::Quality;
 use crate::scenario::expect::Judged as Expected;
@@ -44,6 +45,8 @@ struct Summary<'a> {
     judged: &'a str,
     estimators: BTreeMap<&'a str, EstimatorSummary>,
     sensor: SensorSummary,
+    /// `null` without a mode switch, and of a recording, which does not say what would have been best.
+    modes: Option<Score>,
     warnings: &'a [String],
     expectations: &'a [Expected],
 }
@@ -110,6 +113,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
             .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation)))
             .collect(),
         sensor: SensorSummary { depth_valid_share: log.depth_valid_share(), energies: log.energies },
+        modes: log.mode_score(),
         warnings: &log.warnings,
         expectations: &log.expectations,
     };

@@ -6,13 +6,14 @@ use std::fs;
 use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
 use sunblind_estimator::image::{Image, RgbImage};
-use sunblind_estimator::mode::Energies;
+use sunblind_estimator::mode::{Energies, ModeChoice, ModeSwitch, Stream, SwitchParams};
 use sunblind_estimator::motion::MotionFailure;
 use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{Health, Mode, Timestamp};
 
 use super::write;
 use crate::evaluation::StampedPose;
+use crate::modes::{Information, StampedInformation, StampedReport};
 use crate::runner::log::{FrameCounts, FrameLog, RunLog, Snapshot, Track};
 
 /// A name and a warning as an attacker would choose them.
@@ -51,6 +52,23 @@ fn frame(index: u32, drift: f64) -> FrameLog {
         }),
         stage_ms: [2.1, 21.0 + (5.0 * t).sin(), 6.0, 3.2 + t.cos()],
     }
+}
+
+/// A mode switch that wavers for as long as the lamp flickers.
+fn report(index: u32) -> StampedReport {
+    let mut switch = ModeSwitch::new(ModeChoice::Auto, SwitchParams::default());
+    let rgb = if index % 90 < 60 { 0.2 } else { 0.0 };
+    for (stream, energy) in [(Stream::Rgb, rgb), (Stream::Infrared, 0.01), (Stream::Depth, 0.4)] {
+        switch.see(stream, time(index), energy);
+    }
+    let mut report = switch.report();
+    report.mode = report.answer;
+    StampedReport { time: time(index), report }
+}
+
+fn information(index: u32) -> StampedInformation {
+    let rgb = if index % 90 < 58 { 0.5 } else { 0.0 };
+    StampedInformation { time: time(index), information: Information { rgb, infrared: 0.9, depth: 0.6 } }
 }
 
 fn snapshot(index: u32, [width, height]: [usize; 2]) -> Snapshot {
@@ -92,6 +110,8 @@ fn made_up_log(frames: u32) -> RunLog {
         has_wheels: false,
         thumbnails: Vec::new(),
         energies: Energies { rgb: Some(0.21), infrared: None, depth: Some(0.3) },
+        modes: (0..frames).map(report).collect(),
+        information: (0..frames).map(information).collect(),
         plan: None,
         planned_path: Vec::new(),
         expectations: Vec::new(),
@@ -140,7 +160,7 @@ fn check_page(page: &str) {
 #[test]
 fn a_full_run_is_reported_in_full() {
     let (out, page, summary) = written(&made_up_log(300));
-    for section in ["Path", "Error", "What was seen", "Numbers", "Pictures", "Time", "Behind it"] {
+    for section in ["Path", "Error", "Modes", "What was seen", "Numbers", "Pictures", "Time", "Behind it"] {
         assert!(page.contains(&format!("<h2>{section}</h2>")), "{section}");
     }
     assert!(page.contains("Tracked 289 of 300 frames over "));
@@ -172,6 +192,34 @@ fn a_full_run_is_reported_in_full() {
         assert!(timeline.headers().unwrap().iter().any(|header| header == column), "{column}");
     }
     assert_eq!(timeline.records().map(Result::unwrap).count(), 600);
+}
+
+#[test]
+fn the_modes_are_shown_beside_the_best_ones() {
+    let (out, page, summary) = written(&made_up_log(300));
+    // Four stretches in the light and three in the dark; a note says how late the switch was.
+    for (class, count) in [("indoor", 8), ("night", 6), ("outdoor", 0), ("wheels", 0)] {
+        assert_eq!(page.matches(&format!("class=\"stretch {class}\"")).count(), count, "{class}");
+    }
+    assert!(page.contains("6 switches for 6 changes of the best mode"), "a note");
+    assert_eq!((&summary["modes"]["switches"], &summary["modes"]["accuracy_percent"]), (&6.into(), &100.0.into()));
+    let mut modes = csv::Reader::from_path(out.path().join("modes.csv")).unwrap();
+    let header = modes.headers().unwrap().clone();
+    let row = modes.records().nth(70).unwrap().unwrap();
+    let value = |name: &str| &row[header.iter().position(|column| column == name).unwrap()];
+    assert_eq!([value("mode"), value("best_mode"), value("energy_rgb")], ["night", "night", "0.0"]);
+    // (0.4 - 0.32) / (0.42 - 0.32).
+    assert!((value("high_depth").parse::<f64>().unwrap() - 0.8).abs() < 1e-9);
+    assert_eq!([value("high_rgb"), value("high_infrared"), value("rule_lhh")], ["0.0", "1.0", value("high_depth")]);
+    assert_eq!([value("degree_night"), value("rgb_contrast_share")], [value("rule_lhh"), "0.0"]);
+
+    let mut log = made_up_log(60);
+    log.information.clear();
+    let (_, page, summary) = written(&log);
+    assert!(page.contains("<h2>Modes</h2>") && !page.contains(">best</text>") && summary["modes"].is_null());
+    log.modes.clear();
+    let (out, page, _) = written(&log);
+    assert!(!page.contains("<h2>Modes</h2>") && !out.path().join("modes.csv").exists());
 }
 
 /// A robot with wheels: its visual odometry is one of several tracks, and not the judged one.

@@ -17,7 +17,7 @@ use crate::evaluation::{evaluate, position_error};
 use crate::record::writer::{RecordingWriter, WriteError};
 use crate::render::RenderError;
 use crate::robot::VelocityCommand;
-use crate::scenario::expect::{Metrics, OF_THE_SENSOR, judge, metrics};
+use crate::scenario::expect::{Metrics, OF_THE_SENSOR, judge, metrics, of_the_modes};
 use crate::scenario::{Fault, Scenario};
 use crate::simulator::Simulator;
 use crate::world::World;
@@ -91,6 +91,7 @@ impl Run<'_> {
             simulator.truth().iter().try_for_each(|pose| recording.write_truth(pose))?;
         }
         let mut log = session.finish(name.to_owned(), Vec::new(), simulator.truth());
+        log.information = simulator.information().to_vec();
         log.plan = Some(Plan::of(world));
         log.planned_path = planned_path;
         let facts = facts(&log, scenario, simulator, physics);
@@ -139,6 +140,7 @@ fn metrics_of(log: &RunLog, facts: &RunFacts) -> Metrics {
     let of_the_sensor = [log.depth_valid_share(), rgb, infrared, depth];
     let measured = OF_THE_SENSOR.into_iter().zip(of_the_sensor);
     metrics.extend(measured.filter_map(|(key, value)| Some((key.to_owned(), value?))));
+    metrics.extend(log.mode_score().iter().flat_map(of_the_modes));
     metrics
 }
 

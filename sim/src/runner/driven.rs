@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use sunblind_estimator::mode::ModeReport;
 use sunblind_estimator::odometry::FrameReport;
 use sunblind_estimator::{Estimate, Estimator, EstimatorParams, Localizer, ParamError, PoseSource, Rig};
 
@@ -108,6 +109,14 @@ impl Driven {
     pub(super) fn last_frame(&self) -> Option<&FrameReport> {
         match &self.subject {
             Subject::Product { estimator, .. } => estimator.last_frame(),
+            Subject::Own(_) => None,
+        }
+    }
+
+    /// How its mode came about.
+    pub(super) fn mode_report(&self) -> Option<ModeReport> {
+        match &self.subject {
+            Subject::Product { estimator, .. } => Some(estimator.mode_report()),
             Subject::Own(_) => None,
         }
     }

@@ -11,12 +11,14 @@ use sunblind_estimator::{
 use super::driven::Driven;
 use super::log::{FrameCounts, FrameLog, Track};
 use crate::evaluation::{StampedPose, true_pose_at};
+use crate::modes::StampedReport;
 
 /// A localiser and its logs so far, each in its own odom frame.
 pub(super) struct Follower {
     driven: Driven,
     /// One a track.
     logs: Vec<Vec<FrameLog>>,
+    modes: Vec<StampedReport>,
     estimates: Sha256,
     newest_report: Option<Timestamp>,
     /// Whether its newest report is of the frame that was logged last.
@@ -31,6 +33,7 @@ impl Follower {
         Self {
             driven,
             logs,
+            modes: Vec::new(),
             estimates: Sha256::new(),
             newest_report: None,
             reported: false,
@@ -61,6 +64,7 @@ impl Follower {
 
     /// Writes down what it says once it has the frame of `time`.
     pub fn log(&mut self, time: Timestamp) {
+        self.modes.extend(self.driven.mode_report().map(|report| StampedReport { time, report }));
         let estimates = self.driven.estimates();
         let counts = self.counts();
         self.reported = counts.is_some();
@@ -99,6 +103,11 @@ impl Follower {
             keyframe: report.keyframe,
             depth_valid_share: report.depth_valid_share,
         })
+    }
+
+    /// What its mode switch has said, once a frame.
+    pub fn take_modes(&mut self) -> Vec<StampedReport> {
+        std::mem::take(&mut self.modes)
     }
 
     /// The instants that it has spoken of, track by track.

@@ -7,6 +7,7 @@ use sunblind_estimator::odometry::FeatureTrack;
 use sunblind_estimator::{Health, Mode, Timestamp};
 
 use crate::evaluation::StampedPose;
+use crate::modes::{self, StampedInformation, StampedReport};
 use crate::scenario::Quality;
 use crate::scenario::expect::Judged;
 use crate::world::plan::Plan;
@@ -30,6 +31,10 @@ pub struct RunLog {
     pub thumbnails: Vec<Snapshot>,
     /// What the images held, on average.
     pub energies: Energies,
+    /// What the judged localiser's mode switch said, once a frame; empty for a localiser of the user's own.
+    pub modes: Vec<StampedReport>,
+    /// What the images held in truth; empty for a recording.
+    pub information: Vec<StampedInformation>,
     /// The world from above; `None` for a recording.
     pub plan: Option<Plan>,
     /// The way that the robot was to take: x, y in the world, metres; empty for a recording.
@@ -66,6 +71,11 @@ pub struct RunFacts {
 }
 
 impl RunLog {
+    /// How well the modes were chosen; `None` where nobody chose, or nobody knows.
+    pub fn mode_score(&self) -> Option<modes::Score> {
+        modes::score(&self.modes, &self.information)
+    }
+
     /// The mean share of the depth images' pixels that have a value; `None` when no localiser counted them.
     pub fn depth_valid_share(&self) -> Option<f64> {
         let shares = |track: &Track| -> Vec<f64> {

@@ -131,6 +131,7 @@ impl<'a> Session<'a> {
         let truth: Vec<StampedPose> = times.into_iter().filter_map(|time| truth::at(recorded, time)).collect();
         warnings.extend(self.truth_warning(recorded, &truth));
         warnings.extend(self.followers.iter().filter_map(Follower::warning));
+        let modes = self.followers.first_mut().map_or_else(Vec::new, Follower::take_modes);
         let (started, cpu) = self.started;
         let [snapshots, thumbnails] = self.gallery.finish();
         RunLog {
@@ -143,6 +144,8 @@ impl<'a> Session<'a> {
             snapshots,
             thumbnails,
             energies: self.energies.means(),
+            modes,
+            information: Vec::new(),
             plan: None,
             planned_path: Vec::new(),
             expectations: Vec::new(),

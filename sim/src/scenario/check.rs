@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use sunblind_estimator::ParamError;
 
 use super::expect::Expectation;
-use super::{Fault, FloorArea, Kinect, Scenario};
+use super::{Covered, Fault, FloorArea, Kinect, Scenario};
 
 /// The longest run, seconds: an hour at 15 frames a second are 54 000 images.
 const DURATION: RangeInclusive<f64> = 0.1..=3600.0;
@@ -106,7 +106,19 @@ impl Kinect {
         number("kinect.stream_switch_s", self.stream_switch, STREAM_SWITCH)?;
         optional("kinect.warm_up_s", self.warm_up, WARM_UP)?;
         number("kinect.residual_px", self.residual_px, RESIDUAL_PX)?;
-        number("kinect.residual_deg", self.residual_deg, RESIDUAL_DEG)
+        number("kinect.residual_deg", self.residual_deg, RESIDUAL_DEG)?;
+        all("kinect.covered", &self.covered, Covered::check)
+    }
+}
+
+impl Covered {
+    fn check(&self) -> Result<(), Fault> {
+        number("from_s", self.from_s, 0.0..=*DURATION.end())?;
+        number("until_s", self.until_s, 0.0..=*DURATION.end())?;
+        if self.from_s < self.until_s {
+            return Ok(());
+        }
+        Err(Fault::new("until_s", "the hand is taken away before it comes: write a later until_s"))
     }
 }
 

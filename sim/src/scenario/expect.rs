@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::Fault;
 use super::error::nearest;
 use crate::evaluation::Evaluation;
+use crate::modes::Score;
 
 /// The estimates that a run with wheels gives.
 const ESTIMATES: [&str; 4] = ["odometry", "mvo", "ekf", "svsf"];
@@ -38,6 +39,16 @@ const OF_THE_RUN: [&str; 3] = ["path_m", "duration_s", "frames"];
 pub const OF_THE_SENSOR: [&str; 4] =
     ["sensor.depth_valid_share", "sensor.energies.rgb", "sensor.energies.infrared", "sensor.energies.depth"];
 
+/// What is measured of the mode switch, as in `summary.json` and [`Score`].
+const OF_THE_MODES: [&str; 6] = [
+    "modes.accuracy_percent",
+    "modes.latency_s",
+    "modes.latency_mean_s",
+    "modes.switches",
+    "modes.true_changes",
+    "modes.useless_s",
+];
+
 /// Measured values by their keys: `svsf.ate_m`, `path_m`.
 pub type Metrics = BTreeMap<String, f64>;
 
@@ -45,8 +56,8 @@ pub type Metrics = BTreeMap<String, f64>;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    /// Its key as in summary.json: an estimate, a dot, what is measured of it; or a value of the whole run or of
-    /// its images.
+    /// Its key as in summary.json: an estimate, a dot, what is measured of it; or a value of the whole run, of its
+    /// images or of its modes.
     pub metric: String,
     /// Another metric that it is divided by.
     pub relative_to: Option<String>,
@@ -124,6 +135,13 @@ pub fn metrics<'a>(evaluations: impl IntoIterator<Item = (&'a str, &'a Evaluatio
     metrics
 }
 
+/// The metrics of the mode switch.
+pub fn of_the_modes(score: &Score) -> Metrics {
+    let Score { accuracy_percent, latency_s, latency_mean_s, switches, true_changes, useless_s } = *score;
+    let values = [accuracy_percent, latency_s, latency_mean_s, switches as f64, true_changes as f64, useless_s];
+    OF_THE_MODES.map(str::to_owned).into_iter().zip(values).filter(|(_, value)| value.is_finite()).collect()
+}
+
 impl Expectation {
     /// A fault's key is relative to the expectation.
     pub(super) fn check(&self) -> Result<(), Fault> {
@@ -148,8 +166,9 @@ impl Expectation {
 
 fn check_metric(key: &str, metric: &str) -> Result<(), Fault> {
     let of_estimates = ESTIMATES.iter().flat_map(|estimate| MEASURED.map(|measured| format!("{estimate}.{measured}")));
-    let known: Vec<String> =
-        of_estimates.chain(OF_THE_RUN.into_iter().chain(OF_THE_SENSOR).map(str::to_owned)).collect();
+    let known: Vec<String> = of_estimates
+        .chain([&OF_THE_RUN[..], &OF_THE_SENSOR, &OF_THE_MODES].concat().into_iter().map(str::to_owned))
+        .collect();
     if known.iter().any(|known| known == metric) {
         return Ok(());
     }
@@ -225,6 +244,27 @@ mod tests {
         let json = serde_json::to_value(judge(&[expectation("svsf.drift_percent", None, None, Some(1.5))], &metrics));
         let expected = serde_json::json!([{ "name": "svsf.drift_percent", "value": null, "bound": { "max": 1.5 }, "held": false }]);
         assert_eq!(json.unwrap(), expected);
+    }
+
+    #[test]
+    fn every_metric_of_the_modes_is_measured_and_may_be_expected() {
+        let score = Score {
+            accuracy_percent: 99.0,
+            latency_s: 0.4,
+            latency_mean_s: f64::NAN,
+            switches: 3,
+            true_changes: 4,
+            useless_s: 0.5,
+        };
+        let metrics = of_the_modes(&score);
+        assert_eq!(metrics.len(), OF_THE_MODES.len() - 1, "all but what is NaN");
+        let in_summary = serde_json::to_value(score).unwrap();
+        for (key, value) in &metrics {
+            assert_eq!(in_summary[key.strip_prefix("modes.").unwrap()].as_f64(), Some(*value), "{key}");
+            expectation(key, None, None, Some(1.0)).check().unwrap();
+        }
+        let ratio = expectation("modes.switches", Some("modes.true_changes"), None, Some(0.75));
+        assert!(judge(&[ratio], &metrics)[0].held);
     }
 
     #[test]

@@ -78,8 +78,8 @@ impl Robot {
     }
 }
 
-impl From<super::Kinect> for Imaging {
-    fn from(kinect: super::Kinect) -> Self {
+impl From<&super::Kinect> for Imaging {
+    fn from(kinect: &super::Kinect) -> Self {
         Self {
             noise: kinect.noise,
             motion_blur: kinect.motion_blur,

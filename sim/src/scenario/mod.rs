@@ -148,7 +148,7 @@ pub struct FloorArea {
 }
 
 /// How the Kinect is mounted and what it delivers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Kinect {
     /// Height of the lenses above the floor, metres.
@@ -189,6 +189,25 @@ pub struct Kinect {
     pub residual_deg: f64,
     /// True depth instead of what the device makes of its infrared image: for comparison only.
     pub truth_depth: bool,
+    /// When a hand lies on the device's front.
+    pub covered: Vec<Covered>,
+}
+
+/// A time in which a hand lies on the Kinect's front: its cameras see the palm and nothing else.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Covered {
+    /// Seconds after the start.
+    pub from_s: f64,
+    /// Seconds after the start.
+    pub until_s: f64,
+}
+
+impl Covered {
+    /// Whether it is now, `at` seconds after the start.
+    pub fn contains(&self, at: f64) -> bool {
+        (self.from_s..self.until_s).contains(&at)
+    }
 }
 
 impl Default for Kinect {
@@ -210,6 +229,7 @@ impl Default for Kinect {
             residual_px: 0.1,
             residual_deg: 0.01,
             truth_depth: false,
+            covered: Vec::new(),
         }
     }
 }

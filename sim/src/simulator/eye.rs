@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
+use nalgebra::Isometry3;
 use rayon::ThreadPoolBuilder;
 use sunblind_estimator::image::Image;
 use sunblind_estimator::{MeasurementData, Timestamp};
@@ -14,6 +15,7 @@ use sunblind_estimator::{MeasurementData, Timestamp};
 use super::video::Carried;
 use crate::kinect::{Kinect, KinectFrame};
 use crate::light::LightState;
+use crate::modes::{DEPTH_STEP, Information, Seen};
 use crate::render::{Adapter, RenderError, Sweep};
 
 /// One frame's images, of one instant.
@@ -21,6 +23,8 @@ pub(super) struct Images {
     pub captured_at: Timestamp,
     /// Those that the device's streams carried.
     pub data: Vec<MeasurementData>,
+    /// What there was in all of them, for the judge.
+    pub information: Information,
     /// What finding depth in the infrared image took.
     pub depth_cost: Duration,
 }
@@ -30,6 +34,7 @@ struct Order {
     world_from_infrared: Sweep,
     light: LightState,
     carried: Carried,
+    covered: bool,
     frame: u64,
 }
 
@@ -69,9 +74,16 @@ impl Eye {
         &self.adapter
     }
 
-    /// Has a frame taken, exposed about `captured_at`.
-    pub fn capture(&mut self, captured_at: Timestamp, world_from_infrared: Sweep, light: LightState, carried: Carried) {
-        let order = Order { captured_at, world_from_infrared, light, carried, frame: self.ordered };
+    /// Has a frame taken, exposed about `captured_at`, with a hand on the device or without.
+    pub fn capture(
+        &mut self,
+        captured_at: Timestamp,
+        world_from_infrared: Sweep,
+        light: LightState,
+        carried: Carried,
+        covered: bool,
+    ) {
+        let order = Order { captured_at, world_from_infrared, light, carried, covered, frame: self.ordered };
         self.ordered += 1;
         self.open.push_back(captured_at);
         if let Some(orders) = &self.orders {
@@ -114,7 +126,9 @@ impl Drop for Eye {
 
 fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images, RenderError> {
     kinect.illuminate(&order.light);
+    kinect.cover(order.covered);
     let exposed = kinect.expose(&order.world_from_infrared, order.frame)?;
+    let chips = kinect.chips();
     let started = ThreadTime::now();
     let KinectFrame { rgb, infrared, mut depth_raw } = kinect.develop(exposed);
     let depth_cost = started.elapsed();
@@ -123,8 +137,16 @@ fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images
         let raw = depth.pixels().iter().map(|&z| kinect.calibration().raw_of(f64::from(z))).collect();
         depth_raw = Image::from_pixels(depth.width(), depth.height(), raw).expect("one value a pixel");
     }
+    let information = Information::of(&Seen {
+        rgb: &rgb,
+        infrared: &infrared,
+        depth: &depth_raw,
+        chips,
+        depth_camera: &kinect.calibration().rig(Isometry3::identity()).depth,
+        true_depth: &kinect.true_depth_of_every(DEPTH_STEP)?,
+    });
     let mut data = vec![MeasurementData::Depth(Arc::new(depth_raw))];
     data.extend(order.carried.colour.then(|| MeasurementData::Rgb(Arc::new(rgb))));
     data.extend(order.carried.infrared.then(|| MeasurementData::Infrared(Arc::new(infrared))));
-    Ok(Images { captured_at: order.captured_at, data, depth_cost })
+    Ok(Images { captured_at: order.captured_at, data, information, depth_cost })
 }

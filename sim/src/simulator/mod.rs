@@ -15,13 +15,14 @@ use thiserror::Error;
 
 use crate::evaluation::StampedPose;
 use crate::kinect::{FRAME_INTERVAL, Kinect};
+use crate::modes::StampedInformation;
 use crate::physics::{STEP, Simulation, WorldError};
 use crate::random::stream;
 use crate::record::{Arrival, Body, Calibration, Latency, Sensor};
 use crate::render::{Adapter, RenderError, Sweep};
 use crate::robot::VelocityCommand;
 use crate::scenario::light::lamp_groups;
-use crate::scenario::{Fault, Light, Scenario, StreamMode};
+use crate::scenario::{Covered, Fault, Light, Scenario, StreamMode};
 use crate::truth;
 use crate::world::World;
 use eye::{Eye, Images};
@@ -67,6 +68,7 @@ pub struct Simulator {
     robot_from_infrared: Isometry3<f64>,
     light: Light,
     lamp_groups: Vec<String>,
+    covered: Vec<Covered>,
     /// Of the readings since the last one that was sent: sum and count.
     gyro: (Vector3<f64>, f64),
     under_way: BTreeMap<Arrival, Measurement>,
@@ -74,6 +76,7 @@ pub struct Simulator {
     /// Every step's pose, as far back as an exposure may lie.
     recent: VecDeque<StampedPose>,
     truth: Vec<StampedPose>,
+    information: Vec<StampedInformation>,
 }
 
 impl Simulator {
@@ -95,7 +98,8 @@ impl Simulator {
             .into_iter()
             .fold(Latency::default(), |latency, sensor| latency.with(sensor, IMAGES_TAKE))
             .with(Sensor::Wheels, WHEELS_TAKE);
-        let kinect = Kinect::new(world, unit, scenario.kinect.into(), stream(scenario.seed, "kinect", 0).next_u64())?;
+        let kinect =
+            Kinect::new(world, unit, (&scenario.kinect).into(), stream(scenario.seed, "kinect", 0).next_u64())?;
         let mut simulator = Self {
             physics,
             eye: Eye::open(kinect, scenario.kinect.truth_depth),
@@ -110,11 +114,13 @@ impl Simulator {
             robot_from_infrared,
             light: scenario.light.clone(),
             lamp_groups: lamp_groups(world),
+            covered: scenario.kinect.covered.clone(),
             gyro: (Vector3::zeros(), 0.0),
             under_way: BTreeMap::new(),
             depth_cost: Duration::ZERO,
             recent: VecDeque::new(),
             truth: Vec::new(),
+            information: Vec::new(),
         };
         simulator.look_around();
         Ok(simulator)
@@ -143,6 +149,11 @@ impl Simulator {
     /// Where it truly was so far.
     pub fn truth(&self) -> &[StampedPose] {
         &self.truth
+    }
+
+    /// What the images held in truth that have arrived so far.
+    pub fn information(&self) -> &[StampedInformation] {
+        &self.information
     }
 
     /// CPU time that finding depth in the infrared images has taken.
@@ -212,7 +223,8 @@ impl Simulator {
         let sweep = Sweep::between(&world_from_infrared(captured_at - half), &world_from_infrared(captured_at + half));
         let carried = self.video.carries(Timestamp::from_nanos(captured_at - half));
         let light = self.light.at(captured_at as f64 * 1e-9, &self.lamp_groups);
-        self.eye.capture(Timestamp::from_nanos(captured_at), sweep, light, carried);
+        let covered = self.covered.iter().any(|covered| covered.contains(captured_at as f64 * 1e-9));
+        self.eye.capture(Timestamp::from_nanos(captured_at), sweep, light, carried, covered);
     }
 
     /// Waits for the frames that must have arrived by now.
@@ -221,8 +233,9 @@ impl Simulator {
         let latency = self.calibration.latency.clone();
         let has_arrived = |captured_at| latency.available_at(Sensor::Depth, captured_at) <= now;
         while self.eye.oldest().is_some_and(has_arrived) {
-            let Images { captured_at, data, depth_cost } = self.eye.wait()?;
+            let Images { captured_at, data, information, depth_cost } = self.eye.wait()?;
             self.depth_cost += depth_cost;
+            self.information.push(StampedInformation { time: captured_at, information });
             data.into_iter().for_each(|data| self.measure(captured_at, data));
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 mod counts;
 mod errors;
+mod modes;
 mod path;
 
 use serde::Serialize;
@@ -9,6 +10,7 @@ use sunblind_estimator::Timestamp;
 
 pub(super) use self::counts::figures as counts;
 pub(super) use self::errors::figures as errors;
+pub(super) use self::modes::figures as modes;
 pub(super) use self::path::{figures as path, floor};
 use super::judged::{Judged, is_lost};
 use crate::runner::log::Track;

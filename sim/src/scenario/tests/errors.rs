@@ -91,6 +91,7 @@ fn numbers_that_make_no_sense_are_refused_where_they_stand() {
         ("[kinect]\nwarm_up_s = nan", "10:13", "warm_up_s = NaN"),
         ("[kinect]\nresidual_px = 99", "10:15", "from 0 to 50"),
         ("[kinect]\nresidual_deg = 9", "10:16", "from 0 to 5"),
+        ("[[kinect.covered]]\nfrom_s = 5\nuntil_s = 4", "11:11", "later until_s"),
         ("[estimator.params.surf]\noctaves = 9", "10:11", "surf.octaves = 9"),
         ("[short]\nduration_s = 61", "10:14", "to 60"),
         ("[[robot.floor_areas]]\nfloor = \"carpet\"\nmin_m = [2, 2]\nmax_m = [1, 3]", "12:9", "north-east"),

@@ -83,13 +83,16 @@ fn kinect() -> impl Strategy<Value = Kinect> {
     ];
     let numbers = (0.3..2.0, -27.0..27.0, 1.0..30.0, 0.0..2.0, 0.0..2.0, 0.0..0.5);
     let unit = (option::of(0.0..7200.0), option::of(0..i64::MAX as u64));
-    (numbers, unit, streams, exposure, any::<[bool; 6]>()).prop_map(
+    let covered = (0.0..9.0, 9.0..20.0).prop_map(|(from_s, until_s)| Covered { from_s, until_s });
+    let covered = prop::collection::vec(covered, 0..3);
+    (numbers, unit, streams, exposure, any::<[bool; 6]>(), covered).prop_map(
         |(
             (lens_height, tilt_deg, rate, stream_switch, residual_px, residual_deg),
             (warm_up, unit_seed),
             streams,
             infrared_exposure,
             [noise, motion_blur, rolling_shutter, white_balance, truth_depth, full],
+            covered,
         )| Kinect {
             lens_height,
             tilt_deg,
@@ -107,6 +110,7 @@ fn kinect() -> impl Strategy<Value = Kinect> {
             quality: if full { Quality::Full } else { Quality::Fast },
             residual_deg,
             truth_depth,
+            covered,
         },
     )
 }
