@@ -66,7 +66,7 @@ impl Matcher {
         let residual = Residual::of(&pixels, wide, height);
         let [first, end] = [SHIFTS.start, SHIFTS.end].map(|shift| shift * width as isize / WIDTH);
         let bits = ReferenceBits::of(&residual, MARGIN, width, first..end);
-        Self { bits, reference: Reference::of(residual, MARGIN, first), width, height }
+        Self { bits, reference: Reference::of(&residual, MARGIN, first), width, height }
     }
 
     /// Raw disparity of every pixel, [`NO_DEPTH`] where there is none.
@@ -82,7 +82,7 @@ impl Matcher {
         assert_eq!(infrared.size(), (self.width, self.height), "an infrared image of another camera");
         let live = Residual::of(infrared.pixels(), self.width, self.height);
         let live_bits = BitImage::of(&live, 0, self.width);
-        let live = Live::of(live);
+        let live = Live::of(&live);
         let mut depth = DepthImage::filled(self.width, self.height, NO_DEPTH);
         let (first, last) = (RADIUS * self.width, (self.height - RADIUS) * self.width);
         let bands = depth.pixels_mut()[first..last].par_chunks_mut(BAND * self.width);
