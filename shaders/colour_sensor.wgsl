@@ -27,12 +27,12 @@ struct ColourSensor {
 override TAPS: u32 = 1u;
 
 fn luminance_at(at: vec2f) -> vec3f {
-    return textureSampleLevel(luminance, bilinear, at / camera.gbuffer_size, 0.0).rgb;
+    return textureSampleLevel(luminance, bilinear, at * camera.texel, 0.0).rgb;
 }
 
 // One quad of the mosaic: green is seen by every pixel for itself; red and blue have one site, and every pixel shows the
 // quad's mean of them.
-@compute @workgroup_size(64, 1)
+@compute @workgroup_size(32, 1)
 fn colour_sensor(@builtin(global_invocation_id) id: vec3u) {
     let width = camera.size.x;
     let corner = 2u * id.xy;

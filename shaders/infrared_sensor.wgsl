@@ -41,7 +41,7 @@ const EDGE = 0.1;
 fn inverse_z_at(at: vec2f) -> f32 {
     let corner = floor(at - 0.5);
     // In order: lower left, lower right, upper right, upper left.
-    let around = textureGather(depths, nearest, (corner + 1.0) / camera.gbuffer_size) / camera.near;
+    let around = textureGather(depths, nearest, (corner + 1.0) * camera.texel) * camera.nearest;
     let share = at - 0.5 - corner;
     let low = min(min(around.x, around.y), min(around.z, around.w));
     let high = max(max(around.x, around.y), max(around.z, around.w));
@@ -74,7 +74,7 @@ fn expose_pixel(id: vec2u) {
     var dot_peak = 0.0;
     for (var tap = 0u; tap < TAPS; tap++) {
         let seen = middle - motion * tap_instant(camera, id.y, tap, TAPS);
-        let light = textureSampleLevel(radiance, bilinear, seen / camera.gbuffer_size, 0.0);
+        let light = textureSampleLevel(radiance, bilinear, seen * camera.texel, 0.0);
         ambient += light.x;
         glint += light.z;
         dot_peak = select(dot_peak, light.y, tap == TAPS / 2u);
@@ -94,7 +94,7 @@ fn expose_pixel(id: vec2u) {
 }
 
 // Two rows: what all pixels have in common is fetched once for both.
-@compute @workgroup_size(64, 1)
+@compute @workgroup_size(32, 1)
 fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
     expose_pixel(vec2u(id.x, 2u * id.y));
     expose_pixel(vec2u(id.x, 2u * id.y + 1u));

@@ -175,13 +175,7 @@ impl Reference {
     /// Products of the live image's columns with the reference's, summed over a window's rows around `y`: of those that
     /// the windows around pixel `x` and the reference's pixel `reference` have, then the one left of it, ….
     #[inline(always)]
-    fn column_products<const COUNT: usize>(
-        &self,
-        live: &Live,
-        x: usize,
-        reference: usize,
-        y: usize,
-    ) -> [i32x8; COUNT] {
+    fn column_products<const COUNT: usize>(&self, live: &Live, x: usize, reference: usize, y: usize) -> [i32x8; COUNT] {
         let (first_live, last_other) = (2 * (x - COLUMNS / 2), 2 * (reference - COLUMNS / 2));
         let live_pairs: &[_; 2 * RADIUS + 1] = live.pairs.rows(y - RADIUS);
         let other_pairs: &[_; 2 * RADIUS + 1] = self.pairs.rows(y - RADIUS);
