@@ -36,6 +36,7 @@ pub(super) struct Reference {
 }
 
 /// Roots of the sums of squares over every window; 0 nearer to the border than a window reaches.
+#[inline(always)]
 fn norms(image: &Residual) -> Vec<f32> {
     let width = image.width;
     let mut norms = vec![0.0; width * image.height];
@@ -66,6 +67,7 @@ pub(super) struct Live {
 }
 
 impl Live {
+    #[inline(always)]
     pub fn of(residual: &Residual) -> Self {
         Self { norms: norms(residual), pairs: RowPairs::of(residual) }
     }
@@ -186,8 +188,8 @@ impl Reference {
                 // A window has an odd number of rows.
                 live &= i16x16::new([-1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0]);
             }
-            for place in 0..COUNT {
-                sums[place] += live.dot(sixteen(&other_pairs[pair], last_other - 2 * place));
+            for (place, sum) in sums.iter_mut().enumerate() {
+                *sum += live.dot(sixteen(&other_pairs[pair], last_other - 2 * place));
             }
         }
         sums

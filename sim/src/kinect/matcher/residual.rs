@@ -23,6 +23,7 @@ impl Residual {
     ///
     /// # Panics
     /// When rows are longer than [`STRIDE`].
+    #[inline(always)]
     pub fn of(pixels: &[u16], width: usize, height: usize) -> Self {
         let mut rows = vec![[0; STRIDE]; height];
         let mut column_sums = vec![0_u16; width];
@@ -51,6 +52,12 @@ impl Residual {
         Self { width, height, rows }
     }
 
+    /// Row `y`, and zeros after it.
+    #[inline(always)]
+    pub fn row_and_room(&self, y: usize) -> &[i16; STRIDE] {
+        &self.rows[y]
+    }
+
     #[inline(always)]
     pub fn row(&self, y: usize) -> &[i16] {
         &self.rows[y][..self.width]
@@ -63,6 +70,7 @@ pub(super) struct RowPairs(Vec<[i16; 2 * STRIDE]>);
 
 impl RowPairs {
     /// Each row with the next.
+    #[inline(always)]
     pub fn of(image: &Residual) -> Self {
         let mut pairs = vec![[0; 2 * STRIDE]; image.height];
         let below = image.rows[1..].iter().chain([&[0; STRIDE]]);
