@@ -50,7 +50,7 @@ fn luminance_of_pixel(id: vec2u) {
 }
 
 // Two rows: what all pixels have in common is fetched once for both.
-@compute @workgroup_size(32, 1)
+@compute @workgroup_size(64, 1)
 fn colour_light(@builtin(global_invocation_id) id: vec3u) {
     luminance_of_pixel(vec2u(id.x, 2u * id.y));
     luminance_of_pixel(vec2u(id.x, 2u * id.y + 1u));

@@ -32,7 +32,7 @@ fn luminance_at(at: vec2f) -> vec3f {
 
 // One quad of the mosaic: green is seen by every pixel for itself; red and blue have one site, and every pixel shows the
 // quad's mean of them.
-@compute @workgroup_size(32, 1)
+@compute @workgroup_size(64, 1)
 fn colour_sensor(@builtin(global_invocation_id) id: vec3u) {
     let width = camera.size.x;
     let corner = 2u * id.xy;

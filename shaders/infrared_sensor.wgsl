@@ -94,7 +94,7 @@ fn expose_pixel(id: vec2u) {
 }
 
 // Two rows: what all pixels have in common is fetched once for both.
-@compute @workgroup_size(32, 1)
+@compute @workgroup_size(64, 1)
 fn infrared_sensor(@builtin(global_invocation_id) id: vec3u) {
     expose_pixel(vec2u(id.x, 2u * id.y));
     expose_pixel(vec2u(id.x, 2u * id.y + 1u));

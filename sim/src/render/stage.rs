@@ -102,7 +102,7 @@ pub(super) struct Stage {
 }
 
 /// The workgroups' width in every compute shader here; they are one pixel high.
-const WORKGROUP: u32 = 32;
+const WORKGROUP: u32 = 64;
 
 impl Stage {
     /// Compiles the shader once for each set of values of its `override` constants. Its entry point is called as its file
