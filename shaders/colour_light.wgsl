@@ -24,7 +24,7 @@ fn luminance_of_pixel(id: vec2u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
     let texel = textureLoad(surfaces, id, 0);
     let surface = surface_of(texel);
-    let inverse_z = textureLoad(depths, id, 0) / camera.near;
+    let inverse_z = textureLoad(depths, id, 0) * camera.nearest;
     let albedo = textureSampleLevel(albedos, repeating, surface.uv, surface.material, surface.level).rgb;
     let direction = vec3f(direction_of_gbuffer_pixel(camera, vec2f(id)), 1.0);
     let gloss = gloss_of(glosses, surface.material);
@@ -41,9 +41,11 @@ fn luminance_of_pixel(id: vec2u) {
         let glint = mirrored_between(gloss, normal, daylight.towards, towards_eye);
         seen += sun * (body * scattered_share(gloss, facing, outgoing) + glint);
     }
+    var beyond = vec3f();
     if SKY {
-        seen = select(sky(daylight, direction).rgb, min(seen, vec3f(BRIGHTEST)), inverse_z > 0.0);
+        beyond = sky(daylight, direction).rgb;
     }
+    seen = select(beyond, min(seen, vec3f(BRIGHTEST)), inverse_z > 0.0);
     textureStore(luminance, id, vec4f(seen, inverse_z));
 }
 

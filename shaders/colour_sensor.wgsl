@@ -27,7 +27,7 @@ struct ColourSensor {
 override TAPS: u32 = 1u;
 
 fn luminance_at(at: vec2f) -> vec3f {
-    return textureSampleLevel(luminance, bilinear, at / camera.gbuffer_size, 0.0).rgb;
+    return textureSampleLevel(luminance, bilinear, at * camera.texel, 0.0).rgb;
 }
 
 // One quad of the mosaic: green is seen by every pixel for itself; red and blue have one site, and every pixel shows the

@@ -33,7 +33,8 @@ fn radiance_of_pixel(id: vec2u) {
     // Past the edge, loads repeat it and stores do nothing: a test would only cost time.
     let texel = textureLoad(surfaces, id, 0);
     let surface = surface_of(texel);
-    let inverse_z = textureLoad(depths, id, 0) / camera.near;
+    let depth = textureLoad(depths, id, 0);
+    let inverse_z = depth * camera.nearest;
     let albedo = textureSampleLevel(albedos, repeating, surface.uv, surface.material, surface.level).a;
 
     let normal = normal_of(texel);
@@ -42,7 +43,8 @@ fn radiance_of_pixel(id: vec2u) {
     // A plane across the view at depth z gets peak/z²; this surface as much as it faces the light.
     let facing_projector = max(-dot(normal, vec3f(from_projector, 1.0)), 0.0);
     let mapped = textureGather(projector_map, nearest, map_of_direction(projector, from_projector));
-    let own = inverse_z * projector.map_near * (1.0 + TOLERANCE);
+    // The map has the near plane of the camera.
+    let own = depth * (1.0 + TOLERANCE);
     let lit = dot(select(vec4f(), vec4f(0.25), mapped <= vec4f(own)), vec4f(1.0));
     let dot_peak = projector.peak_irradiance * inverse_z * inverse_z * facing_projector * lit;
 
@@ -63,11 +65,12 @@ fn radiance_of_pixel(id: vec2u) {
     let scattered = body * scattered_share(gloss, max(dot(normal, towards_projector), 0.0), outgoing);
     // A mirror shows the projector's lens and no dots.
     let glint = MEAN_OF_PATTERN * mirrored_between(gloss, normal, towards_projector, towards_eye);
-    var seen = vec3f(ambient, dot_peak * vec2f(scattered, glint));
+    var beyond = 0.0;
     if SKY {
-        seen = select(vec3f(sky(daylight, view).w, 0.0, 0.0), seen, inverse_z > 0.0);
+        beyond = sky(daylight, view).w;
     }
-    textureStore(radiance, id, vec4f(min(seen, vec3f(BRIGHTEST)), inverse_z));
+    let seen = min(vec3f(ambient, dot_peak * vec2f(scattered, glint)), vec3f(BRIGHTEST));
+    textureStore(radiance, id, vec4f(select(vec3f(beyond, 0.0, 0.0), seen, inverse_z > 0.0), inverse_z));
 }
 
 // Two rows: what all pixels have in common is fetched once for both.

@@ -43,7 +43,7 @@ const EDGE = 0.1;
 fn inverse_z_at(at: vec2f) -> f32 {
     let corner = floor(at - 0.5);
     // In order: lower left, lower right, upper right, upper left.
-    let around = textureGather(depths, nearest, (corner + 1.0) / camera.gbuffer_size) / camera.near;
+    let around = textureGather(depths, nearest, (corner + 1.0) * camera.texel) * camera.nearest;
     let share = at - 0.5 - corner;
     let low = min(min(around.x, around.y), min(around.z, around.w));
     let high = max(max(around.x, around.y), max(around.z, around.w));
@@ -76,7 +76,7 @@ fn expose_pixel(id: vec2u) {
     var dot_peak = 0.0;
     for (var tap = 0u; tap < TAPS; tap++) {
         let seen = middle - motion * tap_instant(camera, id.y, tap, TAPS);
-        let light = textureSampleLevel(radiance, bilinear, seen / camera.gbuffer_size, 0.0);
+        let light = textureSampleLevel(radiance, bilinear, seen * camera.texel, 0.0);
         ambient += light.x;
         glint += light.z;
         dot_peak = select(dot_peak, light.y, tap == TAPS / 2u);

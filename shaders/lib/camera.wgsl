@@ -5,41 +5,40 @@
 struct Camera {
     clip_from_world: mat4x4f,
     camera_from_world: mat4x4f,
-    // Points in the camera's frame in the middle of the frame interval → its frame at the interval's start, end.
-    start_from_camera: mat4x4f,
-    end_from_camera: mat4x4f,
-    // Pixels.
-    focal: vec2f,
-    centre: vec2f,
-    margin: vec2f,
-    gbuffer_size: vec2f,
-    size: vec2u,
+    // How points move in the camera's frame in a frame interval: by turn × point + shift. Radians, metres.
+    turn: vec3f,
     // As shares of the frame interval: exposure of a row, first row's to last row's.
     exposure: f32,
+    shift: vec3f,
     readout: f32,
-    // Brightness lost in the image's corners, share.
+    // Pixels, and tangents in a pixel.
+    focal: vec2f,
+    pitch: vec2f,
+    // The G-buffer's pixel on the optical axis, and one of its pixels as a share of its edges.
+    centre: vec2f,
+    texel: vec2f,
+    size: vec2u,
+    // Brightness lost with the distance from the image's middle, share for each pixel squared.
     vignetting: f32,
-    // Of the G-buffer's depth, near/z; metres.
-    near: f32,
-    padding: vec2f,
+    // 1/z for a G-buffer's depth of 1: that of the near plane, metres⁻¹.
+    nearest: f32,
 }
 
 // The G-buffer's pixel in a direction.
 fn gbuffer_pixel(camera: Camera, direction: vec2f) -> vec2f {
-    return direction * camera.focal + camera.centre + camera.margin;
+    return direction * camera.focal + camera.centre;
 }
 
 // The direction that a G-buffer's pixel looks in.
 fn direction_of_gbuffer_pixel(camera: Camera, pixel: vec2f) -> vec2f {
-    return (pixel - camera.margin - camera.centre) / camera.focal;
+    return (pixel - camera.centre) * camera.pitch;
 }
 
-// How far the thing seen in a direction, at depth 1/inverse_z, moves across the image in a frame interval; pixels.
+// How far the thing seen in a direction, at depth 1/inverse_z, moves across the image in a frame interval, at its speed
+// in the interval's middle; pixels (Longuet-Higgins & Prazdny 1980).
 fn image_motion(camera: Camera, direction: vec2f, inverse_z: f32) -> vec2f {
-    let point = vec4f(direction, 1.0, inverse_z);
-    let start = camera.start_from_camera * point;
-    let end = camera.end_from_camera * point;
-    return (end.xy * start.z - start.xy * end.z) * (camera.focal / (end.z * start.z));
+    let moved = cross(camera.turn, vec3f(direction, 1.0)) + camera.shift * inverse_z;
+    return (moved.xy - direction * moved.z) * camera.focal;
 }
 
 // When the middle of a row's exposure is, as a share of the frame interval, 0 in its middle.
@@ -55,7 +54,6 @@ fn tap_instant(camera: Camera, row: u32, tap: u32, taps: u32) -> f32 {
 // What the lens lets through to a pixel, 1 in the middle. Falls with the square of the distance; in the corners, where
 // cos⁴ would leave about half, camera chips correct most of it.
 fn vignette(camera: Camera, pixel: vec2f) -> f32 {
-    let half = vec2f(camera.size) * 0.5;
-    let from_middle = (pixel + 0.5 - half) / length(half);
+    let from_middle = pixel + 0.5 - vec2f(camera.size) * 0.5;
     return 1.0 - camera.vignetting * dot(from_middle, from_middle);
 }

@@ -2,7 +2,7 @@
 // camera's frame. Visible light in LUX_PER_UNIT, in the fourth channel 830 nm.
 
 struct Daylight {
-    // A place in the camera's frame → the sun's map: across, down (0 to 1), and what the map holds: nearer is more.
+    // A place in the camera's frame → the sun's map: across, down (pixels), and what the map holds: nearer is more.
     map_from_camera: mat4x4f,
     // What a facing surface gets of the sun.
     beam: vec4f,
@@ -13,8 +13,8 @@ struct Daylight {
     ground: vec4f,
     // Unit vectors: to the sun, and up.
     towards: vec3f,
-    // Pixels of the map along an edge.
-    map_size: f32,
+    // A pixel of the map as a share of its edge.
+    map_texel: f32,
     up: vec3f,
     // What one of its pixels' widths is in its depth.
     map_step: f32,
@@ -33,16 +33,15 @@ const GRAZING = 0.05;
 // Share of the sun that reaches a place on a surface which faces it by a cosine.
 fn sunlit(daylight: Daylight, map: texture_depth_2d, nearest: sampler, place: vec3f, facing: f32) -> f32 {
     let mapped = (daylight.map_from_camera * vec4f(place, 1.0)).xyz;
-    let at = mapped.xy * daylight.map_size - 0.5;
-    let corner = floor(at);
+    let corner = floor(mapped.xy);
     // In order: lower left, lower right, upper right, upper left.
-    let around = textureGather(map, nearest, (corner + 1.0) / daylight.map_size);
+    let around = textureGather(map, nearest, (corner + 1.0) * daylight.map_texel);
     // As much as the surface itself may rise towards the sun from here to the furthest of the four pixels.
     let cosine = max(facing, GRAZING);
     let slope = sqrt(1.0 - cosine * cosine) / cosine;
     let own = mapped.z + daylight.map_step * (0.5 + 1.5 * slope);
     let lit = select(vec4f(), vec4f(1.0), around <= vec4f(own));
-    let share = at - corner;
+    let share = mapped.xy - corner;
     return mix(mix(lit.w, lit.z, share.x), mix(lit.x, lit.y, share.x), share.y);
 }
 

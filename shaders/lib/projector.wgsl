@@ -4,21 +4,15 @@
 struct Projector {
     // Metres along x.
     baseline: f32,
-    // Tangents: how far the pattern's middle points towards the camera, and from one grid position to the next.
+    // Tangent by which the pattern's middle points towards the camera.
     toe_in: f32,
-    pitch: f32,
     // Of the lens, on r².
     pincushion: f32,
     // Of a dot's peak on a facing plane at 1 m, W/m².
     peak_irradiance: f32,
-    // Of the map of what the projector sees, pixels; and its near plane, metres.
-    map_focal: f32,
-    map_size: vec2f,
-    map_near: f32,
-    // Grid positions of a tile, and samples of its image for each of them.
-    tile_width: f32,
-    tile_height: f32,
-    padding: f32,
+    // In a tangent of 1: tiles, and edges of the map of what the projector sees.
+    tiles: vec2f,
+    map: vec2f,
     // Three by three, rows down.
     tile_brightness: array<vec4f, 3>,
 }
@@ -32,10 +26,10 @@ fn tile_of_direction(projector: Projector, direction: vec2f) -> vec2f {
     let near = 1.0 - bend * (1.0 - bend * (3.0 - 12.0 * bend));
     let square = near * near;
     let shrink = (1.0 + 2.0 * bend * square * near) / (1.0 + 3.0 * bend * square);
-    return aimed * shrink / (projector.pitch * vec2f(projector.tile_width, projector.tile_height)) + 1.5;
+    return aimed * shrink * projector.tiles + 1.5;
 }
 
 // Where a direction falls in the map of what the projector sees; 0 to 1.
 fn map_of_direction(projector: Projector, direction: vec2f) -> vec2f {
-    return (direction + vec2f(projector.toe_in, 0.0)) * projector.map_focal / projector.map_size + 0.5;
+    return (direction + vec2f(projector.toe_in, 0.0)) * projector.map + 0.5;
 }

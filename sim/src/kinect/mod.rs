@@ -20,8 +20,8 @@ use sunblind_estimator::image::{DepthImage, Image, InfraredImage, RgbImage};
 
 use crate::light::LightState;
 use crate::render::{
-    Adapter, CameraFrame, ColourSensor, Frame, Images, InfraredSensor, Optics, ProjectorLight, RenderError, Renderer,
-    StageCost, Sweep, affine,
+    Adapter, Begun, CameraFrame, ColourSensor, Frame, Images, InfraredSensor, Optics, ProjectorLight, RenderError,
+    Renderer, StageCost, Sweep, affine,
 };
 use crate::world::World;
 use calibration::Calibration;
@@ -180,33 +180,40 @@ impl Kinect {
     /// # Errors
     /// The graphics adapter stopped working.
     pub fn capture(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<KinectFrame, RenderError> {
-        let images = self.expose(world_from_infrared, frame)?;
-        Ok(self.develop(images))
+        let begun = self.expose(world_from_infrared, frame)?;
+        self.develop(&begun)
     }
 
-    /// The first half of [`capture`](Self::capture): what the graphics adapter does.
+    /// The first half of [`capture`](Self::capture): has the graphics adapter begin. Develop the frame before the next.
     ///
     /// # Errors
     /// The graphics adapter stopped working.
-    pub fn expose(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<Images, RenderError> {
+    pub fn expose(&mut self, world_from_infrared: &Sweep, frame: u64) -> Result<Begun, RenderError> {
         if !self.settled {
             self.settle(world_from_infrared)?;
         }
-        self.renderer.render(&self.frame(world_from_infrared, frame))
+        Ok(self.renderer.begin(&self.frame(world_from_infrared, frame)))
     }
 
-    /// The second half: finds depth, and has the exposures follow the light.
-    pub fn develop(&mut self, images: Images) -> KinectFrame {
+    /// The second half: finds depth in infrared, while the graphics adapter may still be busy with colour, and has the
+    /// exposures follow the light.
+    ///
+    /// # Errors
+    /// The graphics adapter stopped working.
+    pub fn develop(&mut self, begun: &Begun) -> Result<KinectFrame, RenderError> {
         let interval = self.imaging.interval;
-        let metered = Metered::of(&images.colour);
-        let frame = self.find_depth(images);
+        let infrared = image(self.calibration.infrared.size(), self.renderer.infrared(begun)?);
+        let depth_raw = self.matcher.depth(&infrared);
+        let rgb = image(self.calibration.colour.size(), self.renderer.colour(begun)?);
+        let metered = Metered::of(rgb.pixels());
+        let frame = KinectFrame { rgb, infrared, depth_raw };
         self.colour_exposure.follow(metered.brightness(), interval);
         self.infrared_exposure.follow(brightness_of(&frame), interval);
         if self.imaging.white_balance {
             self.balance.follow(&metered, interval);
         }
         self.on_for += interval;
-        frame
+        Ok(frame)
     }
 
     /// True depth (z, metres) of each of the last frame's infrared pixels. For judging, never for the estimator.
@@ -347,7 +354,7 @@ mod tests {
             most = most.max(most_of(&culling));
             most_of_all = most_of_all.max(most_of(&drawing_all));
             if at % 12 == 0 {
-                let images = |kinect: &mut Kinect| kinect.expose(&sweep, 0).expect("a frame");
+                let images = |kinect: &mut Kinect| kinect.capture(&sweep, 0).expect("a frame");
                 assert!(images(&mut culling) == images(&mut drawing_all), "at {from}, looking along {ahead}");
             }
         }

@@ -102,8 +102,10 @@ impl Daylight {
         let camera_from_world = world_from_camera.matrix3.transpose();
         let in_camera = |direction: DVec3| (camera_from_world * direction).as_vec3();
         // Clip space has y upwards, textures downwards.
-        let map_from_clip =
-            DMat4::from_translation(DVec3::new(0.5, 0.5, 0.0)) * DMat4::from_scale(DVec3::new(0.5, -0.5, 1.0));
+        let half = 0.5 * f64::from(MAP_SIZE);
+        // Pixel centres at whole numbers.
+        let map_from_clip = DMat4::from_translation(DVec3::new(half - 0.5, half - 0.5, 0.0))
+            * DMat4::from_scale(DVec3::new(half, -half, 1.0));
         let map_from_camera = map_from_clip * self.projection.clip_from_world * DMat4::from(*world_from_camera);
         let share = 1.0 - sky.glow;
         Some(uniforms::Daylight {
@@ -114,7 +116,7 @@ impl Daylight {
             glow: self.glow * units(sky.horizontal()),
             ground: units(self.light.far_ground()),
             towards: in_camera(beam.towards.as_dvec3()),
-            map_size: MAP_SIZE as f32,
+            map_texel: (MAP_SIZE as f32).recip(),
             up: in_camera(DVec3::Z),
             map_step: (self.projection.pixel / self.projection.depth) as f32,
         })

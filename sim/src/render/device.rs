@@ -85,10 +85,10 @@ impl Device {
         Ok(Self { device, queue, adapter })
     }
 
-    /// Waits until all that was submitted is done.
-    pub fn wait(&self) -> Result<(), RenderError> {
+    /// Waits until that is done.
+    pub fn wait(&self, submission: &wgpu::SubmissionIndex) -> Result<(), RenderError> {
         self.device
-            .poll(wgpu::PollType::wait_indefinitely())
+            .poll(wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None })
             .map(|_| ())
             .map_err(|error| RenderError::Lost(error.to_string()))
     }

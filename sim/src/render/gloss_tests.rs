@@ -56,8 +56,10 @@ fn reflections(gpu: &Device, gloss: Gloss, pairs: &[[Vec3; 2]]) -> Vec<[f32; 3]>
         pass.dispatch_workgroups((pairs.len() as u32).div_ceil(64), 1, 1);
     }
     encoder.copy_buffer_to_buffer(&buffer, 0, readback.buffer(), 0, buffer.size());
-    gpu.queue.submit([encoder.finish()]);
-    let answers = readback.read(gpu, |bytes| bytemuck::cast_slice::<u8, [f32; 8]>(bytes).to_vec()).expect("an answer");
+    let submission = gpu.queue.submit([encoder.finish()]);
+    let answers = readback
+        .read(gpu, &submission, |bytes| bytemuck::cast_slice::<u8, [f32; 8]>(bytes).to_vec())
+        .expect("an answer");
     answers.into_iter().map(|[glint, scattered, mirrored, ..]| [glint, scattered, mirrored]).collect()
 }
 

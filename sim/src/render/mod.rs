@@ -25,6 +25,6 @@ mod view;
 
 pub use device::{Adapter, RenderError};
 pub use passes::{Optics, ProjectorLight};
-pub use renderer::{Frame, Images, Renderer, StageCost};
+pub use renderer::{Begun, Frame, Images, Renderer, StageCost};
 pub use uniforms::{ColourSensor, InfraredSensor};
 pub use view::{CameraFrame, Sweep, affine};

@@ -11,7 +11,7 @@ use super::raster::{DepthMap, GBuffer, Target, uniform_buffer};
 use super::scene::Scene;
 use super::stage::{Binding, Stage};
 use super::uniforms::{self, ColourSensor, InfraredSensor};
-use super::view::{NEAR, TAPS, View};
+use super::view::{TAPS, View};
 
 /// The projector's map of depth.
 #[derive(Clone, Copy)]
@@ -26,6 +26,11 @@ impl MapShape {
     pub fn of(infrared: &CameraModel) -> Self {
         let scaled = |at_640: u32| at_640 * infrared.width as u32 / 640;
         Self { size: [752, 576].map(scaled), focal: scaled(580) as f32 }
+    }
+
+    /// Its size.
+    pub fn edges(&self) -> Vec2 {
+        Vec2::from(self.size.map(|size| size as f32))
     }
 }
 
@@ -243,18 +248,14 @@ fn sensor_stage(gpu: &Device, name: &str, size: [u32; 2], bindings: &[Binding<'_
 
 /// What shaders are told of the projector.
 pub(super) fn projector_uniform(projector: &ProjectorLight<'_>, map: MapShape) -> uniforms::Projector {
+    let [across, down] = projector.tile_grid.map(|positions| positions as f32);
     uniforms::Projector {
         baseline: projector.baseline,
         toe_in: projector.toe_in,
-        pitch: projector.pitch,
         pincushion: projector.pincushion,
         peak_irradiance: projector.peak_irradiance,
-        map_focal: map.focal,
-        map_size: Vec2::from(map.size.map(|size| size as f32)),
-        map_near: NEAR,
-        tile_width: projector.tile_grid[0] as f32,
-        tile_height: projector.tile_grid[1] as f32,
-        padding: 0.0,
+        tiles: (projector.pitch * Vec2::new(across, down)).recip(),
+        map: map.focal / map.edges(),
         tile_brightness: projector.tile_brightness.map(|[left, middle, right]| Vec4::new(left, middle, right, 0.0)),
     }
 }

@@ -46,6 +46,7 @@ pub(super) fn uniform_buffer(gpu: &Device, size: usize) -> wgpu::Buffer {
 
 /// What a camera sees, before light.
 pub(super) struct GBuffer {
+    /// Undefined where depth is 0.
     pub surfaces: Target,
     /// near/z; 0: nothing there.
     pub depth: Target,
@@ -86,7 +87,8 @@ impl GBuffer {
             view: &self.surfaces.view,
             depth_slice: None,
             resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+            // Where there is nothing, the last frame's surfaces stay, and depth says so: clearing 16 bytes a pixel costs.
+            ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
         });
         draw(encoder, &[surfaces], &self.depth, &self.pipeline, &self.group, scene, clip_from_world);
     }

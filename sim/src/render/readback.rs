@@ -23,11 +23,21 @@ impl Readback {
         &self.buffer
     }
 
-    /// Waits for all that was submitted and hands over what the buffer then holds.
-    pub fn read<T>(&self, gpu: &Device, take: impl FnOnce(&[u8]) -> T) -> Result<T, RenderError> {
+    /// Copies all of a buffer.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, from: &wgpu::Buffer) {
+        encoder.copy_buffer_to_buffer(from, 0, &self.buffer, 0, self.buffer.size());
+    }
+
+    /// Waits for what fills the buffer and hands over what it then holds.
+    pub fn read<T>(
+        &self,
+        gpu: &Device,
+        submission: &wgpu::SubmissionIndex,
+        take: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, RenderError> {
         // Should it fail, asking for the range below says so.
         self.buffer.map_async(wgpu::MapMode::Read, .., |_| ());
-        gpu.wait()?;
+        gpu.wait(submission)?;
         let taken = {
             let range = self.buffer.get_mapped_range(..).map_err(|error| RenderError::Lost(error.to_string()))?;
             take(&range)

@@ -41,6 +41,14 @@ pub struct Images {
     pub infrared: Vec<u16>,
 }
 
+/// A frame on its way.
+#[must_use]
+#[derive(Clone, Debug)]
+pub struct Begun {
+    infrared: wgpu::SubmissionIndex,
+    colour: wgpu::SubmissionIndex,
+}
+
 /// What one stage of a frame took.
 #[derive(Clone, Debug)]
 pub struct StageCost {
@@ -60,11 +68,13 @@ pub struct Renderer {
     projector_map: DepthMap,
     projector_clip: wgpu::Buffer,
     infrared_from_projector: DAffine3,
+    map_shape: MapShape,
     projector: Projector,
     projector_uniform: wgpu::Buffer,
     colour: CameraPasses,
     infrared: CameraPasses,
-    readback: Readback,
+    colour_readback: Readback,
+    infrared_readback: Readback,
 }
 
 /// What the stages of one frame need to know here: which light there is, clip-space matrices (from the world) and numbers of instants.
@@ -80,16 +90,20 @@ struct Plan {
 /// How much further away a lit surface may lie than the projector's map says, in slopes of the map's pixels.
 const SLOPE_BIAS: f32 = -2.0;
 
-const STAGES: [&str; 8] = [
+/// In order. Infrared first: depth can be found in it while colour is on its way.
+const STAGES: [&str; 9] = [
     "projector map",
-    "colour G-buffer",
     "infrared G-buffer",
-    "colour light",
     "infrared light",
-    "colour sensor",
     "infrared sensor",
-    "readback",
+    "infrared readback",
+    "colour G-buffer",
+    "colour light",
+    "colour sensor",
+    "colour readback",
 ];
+/// Those that the infrared image takes; the others are colour's.
+const INFRARED: usize = 5;
 
 impl Renderer {
     /// Opens the adapter and sends it the world.
@@ -107,7 +121,8 @@ impl Renderer {
         let colour = colour_passes(&gpu, optics, &scene, &samplers, &daylight);
         let projector = uniform_buffer(&gpu, size_of::<Projector>());
         let infrared = infrared_passes(&gpu, optics, &scene, &samplers, &projector_map, &projector, &daylight);
-        let readback = Readback::new(&gpu, colour.image.size() + infrared.image.size());
+        let [colour_readback, infrared_readback] =
+            [&colour, &infrared].map(|camera| Readback::new(&gpu, camera.image.size()));
         let along_baseline = DVec3::X * f64::from(optics.projector.baseline);
         Ok(Self {
             gpu,
@@ -116,11 +131,13 @@ impl Renderer {
             projector_map,
             projector_clip,
             infrared_from_projector: DAffine3::from_translation(along_baseline),
+            map_shape,
             projector: projector_uniform(&optics.projector, map_shape),
             projector_uniform: projector,
             colour,
             infrared,
-            readback,
+            colour_readback,
+            infrared_readback,
         })
     }
 
@@ -140,13 +157,43 @@ impl Renderer {
     /// # Errors
     /// The adapter stopped working.
     pub fn render(&mut self, frame: &Frame) -> Result<Images, RenderError> {
+        let begun = self.begin(frame);
+        let infrared = self.infrared(&begun)?;
+        Ok(Images { colour: self.colour(&begun)?, infrared })
+    }
+
+    /// Begins to take both images, the infrared one first.
+    pub fn begin(&mut self, frame: &Frame) -> Begun {
         let plan = self.prepare(frame);
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        for stage in 0..STAGES.len() {
-            self.encode(stage, &mut encoder, &plan);
-        }
-        self.gpu.queue.submit([encoder.finish()]);
-        self.read_images()
+        let submit = |stages| {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            for stage in stages {
+                self.encode(stage, &mut encoder, &plan);
+            }
+            self.gpu.queue.submit([encoder.finish()])
+        };
+        Begun { infrared: submit(0..INFRARED), colour: submit(INFRARED..STAGES.len()) }
+    }
+
+    /// Waits for the infrared image: 10 bits.
+    ///
+    /// # Errors
+    /// The adapter stopped working.
+    pub fn infrared(&self, begun: &Begun) -> Result<Vec<u16>, RenderError> {
+        self.infrared_readback.read(&self.gpu, &begun.infrared, |bytes| {
+            let numbers: &[u32] = bytemuck::cast_slice(bytes);
+            numbers.iter().map(|&number| number as u16).collect()
+        })
+    }
+
+    /// Waits for the colour image: R, G, B, in sRGB.
+    ///
+    /// # Errors
+    /// The adapter stopped working.
+    pub fn colour(&self, begun: &Begun) -> Result<Vec<[u8; 3]>, RenderError> {
+        self.colour_readback.read(&self.gpu, &begun.colour, |bytes| {
+            bytes.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+        })
     }
 
     /// Takes both images as [`render`](Self::render) does, but waits after every stage and reports what it took.
@@ -160,11 +207,12 @@ impl Renderer {
             let (cpu, wall) = (ProcessTime::now(), Instant::now());
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             self.encode(index, &mut encoder, &plan);
-            self.gpu.queue.submit([encoder.finish()]);
-            if index + 1 == STAGES.len() {
-                self.read_images()?;
-            } else {
-                self.gpu.wait()?;
+            let submission = self.gpu.queue.submit([encoder.finish()]);
+            let begun = Begun { infrared: submission.clone(), colour: submission };
+            match stage {
+                "infrared readback" => drop(self.infrared(&begun)?),
+                "colour readback" => drop(self.colour(&begun)?),
+                _ => self.gpu.wait(&begun.colour)?,
             }
             costs.push(StageCost { stage, cpu: cpu.elapsed(), wall: wall.elapsed() });
         }
@@ -189,9 +237,9 @@ impl Renderer {
             wgpu::TexelCopyBufferInfo { buffer: readback.buffer(), layout },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
-        self.gpu.queue.submit([encoder.finish()]);
+        let submission = self.gpu.queue.submit([encoder.finish()]);
         let (columns, rows) = view.model().size();
-        readback.read(&self.gpu, |bytes| {
+        readback.read(&self.gpu, &submission, |bytes| {
             let depths: &[f32] = bytemuck::cast_slice(bytes);
             let pixels =
                 (0..rows).step_by(step).flat_map(|row| (0..columns).step_by(step).map(move |column| (column, row)));
@@ -211,8 +259,9 @@ impl Renderer {
         let infrared = self.infrared.view.uniform(&frame.infrared);
         let world_from_projector = frame.infrared.sweep.middle() * self.infrared_from_projector;
         let turned = Projector { toe_in: self.projector.toe_in + frame.projector_turn, ..self.projector };
-        let centre = turned.map_size / 2.0 + Vec2::new(turned.toe_in * turned.map_focal, 0.0);
-        let clip_from_projector = clip_from_camera(Vec2::splat(turned.map_focal), centre, turned.map_size, NEAR);
+        let (focal, edges) = (self.map_shape.focal, self.map_shape.edges());
+        let centre = edges / 2.0 + Vec2::new(turned.toe_in * focal, 0.0);
+        let clip_from_projector = clip_from_camera(Vec2::splat(focal), centre, edges, NEAR);
         let projector = (clip_from_projector.as_dmat4() * DMat4::from(world_from_projector.inverse())).as_mat4();
         write(&self.projector_clip, bytemuck::bytes_of(&projector));
         write(&self.projector_uniform, bytemuck::bytes_of(&turned));
@@ -249,28 +298,14 @@ impl Renderer {
     fn encode(&self, stage: usize, encoder: &mut wgpu::CommandEncoder, plan: &Plan) {
         match stage {
             0 => self.projector_map.encode(encoder, &self.scene, &plan.projector_clip),
-            1 => self.colour.gbuffer.encode(encoder, &self.scene, &plan.colour_clip),
-            2 => self.infrared.gbuffer.encode(encoder, &self.scene, &plan.infrared_clip),
-            3 => self.colour.light.encode(encoder, plan.light),
-            4 => self.infrared.light.encode(encoder, plan.light),
-            5 => self.colour.sensor.encode(encoder, plan.colour_taps),
-            6 => self.infrared.sensor.encode(encoder, plan.infrared_taps),
-            _ => {
-                let (colour, infrared) = (&self.colour.image, &self.infrared.image);
-                encoder.copy_buffer_to_buffer(colour, 0, self.readback.buffer(), 0, colour.size());
-                encoder.copy_buffer_to_buffer(infrared, 0, self.readback.buffer(), colour.size(), infrared.size());
-            }
+            1 => self.infrared.gbuffer.encode(encoder, &self.scene, &plan.infrared_clip),
+            2 => self.infrared.light.encode(encoder, plan.light),
+            3 => self.infrared.sensor.encode(encoder, plan.infrared_taps),
+            4 => self.infrared_readback.encode(encoder, &self.infrared.image),
+            5 => self.colour.gbuffer.encode(encoder, &self.scene, &plan.colour_clip),
+            6 => self.colour.light.encode(encoder, plan.light),
+            7 => self.colour.sensor.encode(encoder, plan.colour_taps),
+            _ => self.colour_readback.encode(encoder, &self.colour.image),
         }
-    }
-
-    fn read_images(&self) -> Result<Images, RenderError> {
-        self.readback.read(&self.gpu, |bytes| {
-            let (colour, infrared) = bytes.split_at(self.colour.image.size() as usize);
-            let infrared: &[u32] = bytemuck::cast_slice(infrared);
-            Images {
-                colour: colour.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect(),
-                infrared: infrared.iter().map(|&number| number as u16).collect(),
-            }
-        })
     }
 }

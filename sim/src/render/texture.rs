@@ -2,6 +2,7 @@
 
 use std::iter;
 
+use half::f16;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
 use super::device::{Device, RenderError};
@@ -49,19 +50,21 @@ pub(super) fn albedo_array(gpu: &Device, materials: &[Material]) -> Result<wgpu:
 /// How each material mirrors, in a row: reflectance, roughness. After them the white one's.
 pub(super) fn gloss_row(gpu: &Device, materials: &[Material]) -> wgpu::TextureView {
     let glosses = materials.iter().map(|material| material.gloss).chain(iter::once(Gloss::MATT));
-    let texels: Vec<[f32; 2]> =
-        glosses.map(|gloss| [gloss.reflectance.min(SHINIEST), gloss.roughness.max(SMOOTHEST)]).collect();
+    let texels: Vec<[f16; 2]> = glosses
+        .map(|gloss| [gloss.reflectance.min(SHINIEST), gloss.roughness.max(SMOOTHEST)].map(f16::from_f32))
+        .collect();
     let descriptor = wgpu::TextureDescriptor {
         label: Some("glosses"),
         size: wgpu::Extent3d { width: texels.len() as u32, height: 1, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rg32Float,
+        format: wgpu::TextureFormat::Rg16Float,
         usage: wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     };
-    let bytes = bytemuck::cast_slice(&texels);
+    let halves: Vec<u16> = texels.as_flattened().iter().map(|number| number.to_bits()).collect();
+    let bytes = bytemuck::cast_slice(&halves);
     let texture = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, bytes);
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

@@ -9,18 +9,17 @@ use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
 pub(super) struct Camera {
     pub clip_from_world: Mat4,
     pub camera_from_world: Mat4,
-    pub start_from_camera: Mat4,
-    pub end_from_camera: Mat4,
-    pub focal: Vec2,
-    pub centre: Vec2,
-    pub margin: Vec2,
-    pub gbuffer_size: Vec2,
-    pub size: UVec2,
+    pub turn: Vec3,
     pub exposure: f32,
+    pub shift: Vec3,
     pub readout: f32,
+    pub focal: Vec2,
+    pub pitch: Vec2,
+    pub centre: Vec2,
+    pub texel: Vec2,
+    pub size: UVec2,
     pub vignetting: f32,
-    pub near: f32,
-    pub padding: Vec2,
+    pub nearest: f32,
 }
 
 /// `Daylight` in `shaders/lib/daylight.wgsl`.
@@ -34,7 +33,7 @@ pub(super) struct Daylight {
     pub glow: Vec4,
     pub ground: Vec4,
     pub towards: Vec3,
-    pub map_size: f32,
+    pub map_texel: f32,
     pub up: Vec3,
     pub map_step: f32,
 }
@@ -45,15 +44,10 @@ pub(super) struct Daylight {
 pub(super) struct Projector {
     pub baseline: f32,
     pub toe_in: f32,
-    pub pitch: f32,
     pub pincushion: f32,
     pub peak_irradiance: f32,
-    pub map_focal: f32,
-    pub map_size: Vec2,
-    pub map_near: f32,
-    pub tile_width: f32,
-    pub tile_height: f32,
-    pub padding: f32,
+    pub tiles: Vec2,
+    pub map: Vec2,
     pub tile_brightness: [Vec4; 3],
 }
 
@@ -131,13 +125,12 @@ mod tests {
 
     #[test]
     fn layouts_are_those_of_the_shaders() {
-        assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, start_from_camera,
-            end_from_camera, focal, centre, margin, gbuffer_size, size, exposure, readout,
-            vignetting, near, padding);
+        assert_same_layout!("lib/camera", Camera: clip_from_world, camera_from_world, turn, exposure, shift, readout,
+            focal, pitch, centre, texel, size, vignetting, nearest);
         assert_same_layout!("lib/daylight", Daylight: map_from_camera, beam, level, rise, glow, ground, towards,
-            map_size, up, map_step);
-        assert_same_layout!("lib/projector", Projector: baseline, toe_in, pitch, pincushion, peak_irradiance,
-            map_focal, map_size, map_near, tile_width, tile_height, padding, tile_brightness);
+            map_texel, up, map_step);
+        assert_same_layout!("lib/projector", Projector: baseline, toe_in, pincushion, peak_irradiance, tiles, map,
+            tile_brightness);
         assert_same_layout!("colour_sensor", ColourSensor: electrons_per_luminance, read_variance, shot_noise,
             noise_key, level_per_electron, padding);
         assert_same_layout!("infrared_sensor", InfraredSensor: bandwidth, electrons_per_radiance, read_variance,

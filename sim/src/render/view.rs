@@ -1,6 +1,6 @@
 //! Where a camera is and what it sees: poses over a frame, matrices, the G-buffer's margin.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, Vec2};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Mat4, UVec2, Vec2};
 use nalgebra::{Isometry3, Vector3};
 use sunblind_estimator::camera::CameraModel;
 
@@ -141,22 +141,27 @@ impl View {
         let gbuffer_size = Vec2::from(self.gbuffer_size().map(|size| size as f32));
         // Pixel centres at whole numbers here, edges at whole numbers in clip space.
         let clip_from_camera = clip_from_camera(focal, centre + margin + 0.5, gbuffer_size, NEAR);
-        let from_middle = |pose: &DAffine3| DMat4::from(pose.inverse() * world_from_camera).as_mat4();
+        let from_middle = |pose: &DAffine3| pose.inverse() * world_from_camera;
+        let (start, end) = (from_middle(&frame.sweep.start), from_middle(&frame.sweep.end));
+        // Two turns by opposite angles differ by what a cross product does.
+        let turned = end.matrix3 - start.matrix3;
+        let turn = DVec3::new(turned.y_axis.z, turned.z_axis.x, turned.x_axis.y);
+        let shift = end.translation - start.translation;
+        let size = UVec2::new(model.width as u32, model.height as u32);
         uniforms::Camera {
             clip_from_world: (clip_from_camera.as_dmat4() * camera_from_world).as_mat4(),
             camera_from_world: camera_from_world.as_mat4(),
-            start_from_camera: from_middle(&frame.sweep.start),
-            end_from_camera: from_middle(&frame.sweep.end),
-            focal,
-            centre,
-            margin,
-            gbuffer_size,
-            size: [model.width as u32, model.height as u32].into(),
+            turn: turn.as_vec3(),
             exposure: frame.exposure,
+            shift: shift.as_vec3(),
             readout: frame.readout,
-            vignetting: frame.vignetting,
-            near: NEAR,
-            padding: Vec2::ZERO,
+            focal,
+            pitch: focal.recip(),
+            centre: centre + margin,
+            texel: gbuffer_size.recip(),
+            size,
+            vignetting: 4.0 * frame.vignetting / size.as_vec2().length_squared(),
+            nearest: NEAR.recip(),
         }
     }
 

@@ -130,7 +130,7 @@ fn capture(kinect: &mut Kinect, order: Order, true_depth: bool) -> Result<Images
     let exposed = kinect.expose(&order.world_from_infrared, order.frame)?;
     let chips = kinect.chips();
     let started = ThreadTime::now();
-    let KinectFrame { rgb, infrared, mut depth_raw } = kinect.develop(exposed);
+    let KinectFrame { rgb, infrared, mut depth_raw } = kinect.develop(&exposed)?;
     let depth_cost = started.elapsed();
     if true_depth {
         let depth = kinect.true_depth()?;

@@ -66,7 +66,7 @@ impl Matcher {
         let residual = Residual::of(&pixels, wide, height);
         let [first, end] = [SHIFTS.start, SHIFTS.end].map(|shift| shift * width as isize / WIDTH);
         let bits = ReferenceBits::of(&residual, MARGIN, width, first..end);
-        Self { bits, reference: Reference::of(residual, MARGIN, first), width, height }
+        Self { bits, reference: Reference::of(&residual, MARGIN, first), width, height }
     }
 
     /// Raw disparity of every pixel, [`NO_DEPTH`] where there is none.
@@ -80,9 +80,7 @@ impl Matcher {
     /// On a kind of processor that this one is, or is a better one than. All find the same.
     fn depth_on(&self, processor: Arch, infrared: &InfraredImage) -> DepthImage {
         assert_eq!(infrared.size(), (self.width, self.height), "an infrared image of another camera");
-        let live = Residual::of(infrared.pixels(), self.width, self.height);
-        let live_bits = BitImage::of(&live, 0, self.width);
-        let live = Live::of(live);
+        let (live_bits, live) = processor.dispatch(Beginning(infrared));
         let mut depth = DepthImage::filled(self.width, self.height, NO_DEPTH);
         let (first, last) = (RADIUS * self.width, (self.height - RADIUS) * self.width);
         let bands = depth.pixels_mut()[first..last].par_chunks_mut(BAND * self.width);
@@ -92,6 +90,20 @@ impl Matcher {
         });
         holes::close(&mut depth);
         depth
+    }
+}
+
+/// An image to find depth in: what is done before its bands.
+struct Beginning<'a>(&'a InfraredImage);
+
+impl NullaryFnOnce for Beginning<'_> {
+    type Output = (BitImage, Live);
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let (width, height) = self.0.size();
+        let residual = Residual::of(self.0.pixels(), width, height);
+        (BitImage::of(&residual, 0, width), Live::of(&residual))
     }
 }
 

@@ -1,7 +1,9 @@
 //! Sub-pixel disparity: the correlation of the window with the reference at the found candidate and beside it.
 
+use wide::{f32x8, i16x16, i32x8};
+
 use super::RADIUS;
-use super::residual::{Residual, RowPairs};
+use super::residual::{Residual, RowPairs, STRIDE};
 use super::search::NO_MATCH;
 
 /// Columns of the correlated window, a whole vector of 16-bit numbers; rows are 2·[`RADIUS`] + 1.
@@ -16,12 +18,14 @@ const TROUGH: f32 = 0.4;
 pub(super) const NO_SHIFT: f32 = f32::NEG_INFINITY;
 /// Runs of equal candidates up to this length are correlated pixel by pixel: in noise most are. Measured.
 const SHORT: usize = 3;
+/// The shift before a candidate, the candidate, and the one after.
+const AROUND: usize = 3;
 /// How often the found candidate may turn out to be beside the best one.
 const CLIMB: usize = 2;
 
 /// The reference image and how strong each of its windows is.
 pub(super) struct Reference {
-    residual: Residual,
+    width: usize,
     pairs: RowPairs,
     /// Columns left of the live image's first.
     margin: usize,
@@ -32,6 +36,7 @@ pub(super) struct Reference {
 }
 
 /// Roots of the sums of squares over every window; 0 nearer to the border than a window reaches.
+#[inline(always)]
 fn norms(image: &Residual) -> Vec<f32> {
     let width = image.width;
     let mut norms = vec![0.0; width * image.height];
@@ -57,21 +62,21 @@ fn norms(image: &Residual) -> Vec<f32> {
 
 /// An image to find depth in.
 pub(super) struct Live {
-    residual: Residual,
     pairs: RowPairs,
     norms: Vec<f32>,
 }
 
 impl Live {
-    pub fn of(residual: Residual) -> Self {
-        Self { norms: norms(&residual), pairs: RowPairs::of(&residual), residual }
+    #[inline(always)]
+    pub fn of(residual: &Residual) -> Self {
+        Self { norms: norms(residual), pairs: RowPairs::of(residual) }
     }
 }
 
 impl Reference {
-    pub fn of(residual: Residual, margin: usize, first_shift: isize) -> Self {
-        let inverse_norm = norms(&residual).into_iter().map(|norm| norm.max(1.0).recip()).collect();
-        Self { pairs: RowPairs::of(&residual), residual, margin, first_shift, inverse_norm }
+    pub fn of(residual: &Residual, margin: usize, first_shift: isize) -> Self {
+        let inverse_norm = norms(residual).into_iter().map(|norm| norm.max(1.0).recip()).collect();
+        Self { pairs: RowPairs::of(residual), width: residual.width, margin, first_shift, inverse_norm }
     }
 
     /// The depth engine's last step for row `y` of an image: from the candidates found for its pixels, none near its
@@ -88,13 +93,11 @@ impl Reference {
             }
             x += run.len();
         }
-        for (x, shift) in shifts.iter_mut().enumerate() {
-            if *shift != NO_SHIFT {
-                self.climb(live, [x, y], row, shift);
-            }
+        for _ in 0..CLIMB {
+            self.climb(live, y, row, shifts);
         }
         let width = shifts.len();
-        let norms = &live.norms[y * live.residual.width..][..width];
+        let norms = &live.norms[y * width..][..width];
         let [befores, bests, afters] = row.around.each_ref().map(|correlations| &correlations[..width]);
         // Without a branch, so that it is done for a vector of pixels at a time.
         for x in 0..width {
@@ -109,124 +112,131 @@ impl Reference {
     /// less and by one more.
     #[inline(always)]
     fn correlate(&self, live: &Live, [x, y]: [usize; 2], shift: isize, length: usize, row: &mut Row) {
+        // Seen by the smallest shift; by every larger one a column further left.
+        let reference = (x + 1 + self.margin).wrapping_add_signed(-shift);
+        let norms = &self.inverse_norm[y * self.width..];
         if length <= SHORT {
-            for (around, shift) in row.around.iter_mut().zip(shift - 1..) {
-                for (x, correlation) in (x..).zip(&mut around[x..x + length]) {
-                    *correlation = self.correlation(live, [x, y], shift);
+            for at in 0..length {
+                let columns = self.column_products::<AROUND>(live, x + at, reference + at, y);
+                for place in 0..AROUND {
+                    row.around[place][x + at] = sum(columns[place]) as f32 * norms[reference + at - place];
                 }
             }
             return;
         }
-        let norms = &self.inverse_norm[y * self.residual.width..];
         // Neighbouring windows share columns. Whole vectors of them.
-        let columns = &mut row.columns[..(length + COLUMNS - 1).next_multiple_of(COLUMNS) + COLUMNS];
-        for (place, around) in row.around.iter_mut().enumerate() {
-            let reference = (x + 1 + self.margin).wrapping_add_signed(-shift) - place;
-            let (vectors, _) = columns.as_chunks_mut();
-            let needed = vectors.len() - 1;
-            for (vector, columns) in vectors[..needed].iter_mut().enumerate() {
-                let at = vector * COLUMNS;
-                *columns = self.column_products(live, x + at, reference + at, y);
+        let vectors = (length + COLUMNS - 1).div_ceil(COLUMNS);
+        for vector in 0..vectors {
+            let at = vector * COLUMNS;
+            let products = self.column_products::<AROUND>(live, x + at, reference + at, y);
+            for (columns, products) in row.columns.iter_mut().zip(products) {
+                columns[at..at + COLUMNS].copy_from_slice(&products.to_array());
             }
+        }
+        for place in 0..AROUND {
             // What the last vector has beyond the run is of no run, and the next one overwrites it.
             let mut at = 0;
             while at < length {
-                let norms: &[f32; COLUMNS] = norms[reference + at..].first_chunk().expect("a margin");
-                let around: &mut [f32; COLUMNS] = around[x + at..].first_chunk_mut().expect("a margin");
-                let products = sums_of_eight(&columns[at..]);
-                for lane in 0..COLUMNS {
-                    around[lane] = products[lane] as f32 * norms[lane];
-                }
+                let norms = f32x8::new(*norms[reference + at - place..].first_chunk().expect("a margin"));
+                let correlations = sums_of_eight(&row.columns[place][at..]).round_float() * norms;
+                row.around[place][x + at..][..COLUMNS].copy_from_slice(&correlations.to_array());
                 at += COLUMNS;
             }
         }
     }
 
-    /// Goes from a shift to the best one nearby.
+    /// Goes one step from each shift of a row to the better one beside it, if there is one.
     #[inline(always)]
-    fn climb(&self, live: &Live, at: [usize; 2], row: &mut Row, shift: &mut f32) {
-        let [befores, bests, afters] = &mut row.around;
-        let (before, best, after) = (&mut befores[at[0]], &mut bests[at[0]], &mut afters[at[0]]);
-        for _ in 0..CLIMB {
-            if *after > *best {
-                *shift += 1.0;
-                (*before, *best) = (*best, *after);
-                *after = self.correlation(live, at, *shift as isize + 1);
-            } else if *before > *best {
-                *shift -= 1.0;
-                (*best, *after) = (*before, *best);
-                *before = self.correlation(live, at, *shift as isize - 1);
-            } else {
-                break;
-            }
+    fn climb(&self, live: &Live, y: usize, row: &mut Row, shifts: &mut [f32]) {
+        let width = shifts.len();
+        let [befores, bests, afters] = row.around.each_mut().map(|correlations| &mut correlations[..width]);
+        // Those to move are listed first: which they are is as good as random, and processors that guess guess wrong.
+        let climbing = &mut row.climbing[..width];
+        let mut count = 0;
+        for x in 0..width {
+            climbing[count] = x as u16;
+            let better_beside = (afters[x] > bests[x]) | (befores[x] > bests[x]);
+            count += usize::from((shifts[x] != NO_SHIFT) & better_beside);
         }
-    }
-
-    /// Of one window with the reference shifted by `shift`, relative to how strong the reference is there.
-    #[inline(always)]
-    fn correlation(&self, live: &Live, [x, y]: [usize; 2], shift: isize) -> f32 {
-        let reference = (x + self.margin).wrapping_add_signed(-shift);
-        let mut product = 0;
-        for column in self.column_products(live, x, reference, y) {
-            product += column;
+        for &x in &climbing[..count] {
+            let x = usize::from(x);
+            let (before, best, after) = (befores[x], bests[x], afters[x]);
+            let up = after > best;
+            let step = if up { 1 } else { -1 };
+            let shift = shifts[x] as isize + step;
+            let reference = (x + self.margin).wrapping_add_signed(-shift - step);
+            let [columns] = self.column_products(live, x, reference, y);
+            let further = sum(columns) as f32 * self.inverse_norm[y * self.width + reference];
+            shifts[x] = shift as f32;
+            befores[x] = if up { best } else { further };
+            bests[x] = if up { after } else { before };
+            afters[x] = if up { further } else { best };
         }
-        product as f32 * self.inverse_norm[y * self.residual.width + reference]
     }
 
     /// Products of the live image's columns with the reference's, summed over a window's rows around `y`: of those that
-    /// the windows around pixel `x` and the reference's pixel `reference` have.
+    /// the windows around pixel `x` and the reference's pixel `reference` have, then the one left of it, ….
     #[inline(always)]
-    fn column_products(&self, live: &Live, x: usize, reference: usize, y: usize) -> [i32; COLUMNS] {
-        let (x, reference) = (x - COLUMNS / 2, reference - COLUMNS / 2);
-        let live_pairs: &[_; 2 * RADIUS] = live.pairs.rows(y - RADIUS);
-        let other_pairs: &[_; 2 * RADIUS] = self.pairs.rows(y - RADIUS);
-        let mut sums = [0; COLUMNS];
-        for pair in (0..2 * RADIUS).step_by(2) {
-            let live: &[i16; 2 * COLUMNS] = live_pairs[pair][2 * x..].first_chunk().expect("room at the end");
-            let other: &[i16; 2 * COLUMNS] = other_pairs[pair][2 * reference..].first_chunk().expect("room at the end");
-            let mut products = [0; 2 * COLUMNS];
-            for lane in 0..2 * COLUMNS {
-                products[lane] = i32::from(live[lane]) * i32::from(other[lane]);
+    fn column_products<const COUNT: usize>(&self, live: &Live, x: usize, reference: usize, y: usize) -> [i32x8; COUNT] {
+        let (first_live, last_other) = (2 * (x - COLUMNS / 2), 2 * (reference - COLUMNS / 2));
+        let live_pairs: &[_; 2 * RADIUS + 1] = live.pairs.rows(y - RADIUS);
+        let other_pairs: &[_; 2 * RADIUS + 1] = self.pairs.rows(y - RADIUS);
+        let mut sums = [i32x8::ZERO; COUNT];
+        for pair in (0..2 * RADIUS + 1).step_by(2) {
+            let mut live = sixteen(&live_pairs[pair], first_live);
+            if pair == 2 * RADIUS {
+                // A window has an odd number of rows.
+                live &= i16x16::new([-1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0, -1, 0]);
             }
-            for lane in 0..COLUMNS {
-                sums[lane] += products[2 * lane] + products[2 * lane + 1];
+            for (place, sum) in sums.iter_mut().enumerate() {
+                *sum += live.dot(sixteen(&other_pairs[pair], last_other - 2 * place));
             }
-        }
-        // A window has an odd number of rows.
-        let [live]: &[_; 1] = live.residual.rows(y + RADIUS);
-        let [other]: &[_; 1] = self.residual.rows(y + RADIUS);
-        let live: &[i16; COLUMNS] = live[x..].first_chunk().expect("room at the end");
-        let other: &[i16; COLUMNS] = other[reference..].first_chunk().expect("room at the end");
-        for lane in 0..COLUMNS {
-            sums[lane] += i32::from(live[lane]) * i32::from(other[lane]);
         }
         sums
     }
 }
 
+/// Eight pairs, from a number of a row on.
+#[inline(always)]
+fn sixteen(pairs: &[i16; 2 * STRIDE], first: usize) -> i16x16 {
+    i16x16::new(*pairs[first..].first_chunk().expect("room at the end"))
+}
+
 /// What is known of a row of pixels while it is refined.
 pub(super) struct Row {
-    columns: Vec<i32>,
+    columns: [Vec<i32>; AROUND],
     /// Correlations at the shift before, at the shift, and at the one after.
-    around: [Vec<f32>; 3],
+    around: [Vec<f32>; AROUND],
+    /// Pixels whose shift is not the best one.
+    climbing: Vec<u16>,
 }
 
 impl Row {
     pub fn new(width: usize) -> Self {
-        let room = vec![0.0; width + COLUMNS];
-        Self { columns: vec![0; width + 3 * COLUMNS], around: [room.clone(), room.clone(), room] }
+        Self {
+            columns: std::array::from_fn(|_| vec![0; width + 3 * COLUMNS]),
+            around: std::array::from_fn(|_| vec![0.0; width + COLUMNS]),
+            climbing: vec![0; width],
+        }
     }
+}
+
+#[inline(always)]
+fn sum(numbers: i32x8) -> i32 {
+    let mut sum = 0;
+    for number in numbers.to_array() {
+        sum += number;
+    }
+    sum
 }
 
 /// Sums of eight neighbouring numbers, from each of the first eight on.
 #[inline(always)]
-fn sums_of_eight(numbers: &[i32]) -> [i32; COLUMNS] {
+fn sums_of_eight(numbers: &[i32]) -> i32x8 {
     let numbers: &[i32; 2 * COLUMNS] = numbers.first_chunk().expect("two vectors");
-    let mut sums = [0; COLUMNS];
+    let mut sums = i32x8::ZERO;
     for step in 0..COLUMNS {
-        for lane in 0..COLUMNS {
-            sums[lane] += numbers[lane + step];
-        }
+        sums += i32x8::new(*numbers[step..].first_chunk().expect("a vector"));
     }
     sums
 }

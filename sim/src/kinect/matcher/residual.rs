@@ -23,6 +23,7 @@ impl Residual {
     ///
     /// # Panics
     /// When rows are longer than [`STRIDE`].
+    #[inline(always)]
     pub fn of(pixels: &[u16], width: usize, height: usize) -> Self {
         let mut rows = vec![[0; STRIDE]; height];
         let mut column_sums = vec![0_u16; width];
@@ -51,10 +52,10 @@ impl Residual {
         Self { width, height, rows }
     }
 
-    /// Some rows of it, from `y` on.
+    /// Row `y`, and zeros after it.
     #[inline(always)]
-    pub fn rows<const COUNT: usize>(&self, y: usize) -> &[[i16; STRIDE]; COUNT] {
-        self.rows[y..].first_chunk().expect("rows that lie in the image")
+    pub fn row_and_room(&self, y: usize) -> &[i16; STRIDE] {
+        &self.rows[y]
     }
 
     #[inline(always)]
@@ -64,16 +65,18 @@ impl Residual {
 }
 
 /// An image's rows in pairs, pixel by pixel: (x, y), (x, y + 1), (x + 1, y), … What processors multiply and add in one
-/// instruction.
+/// instruction. The last row's partner is zero.
 pub(super) struct RowPairs(Vec<[i16; 2 * STRIDE]>);
 
 impl RowPairs {
     /// Each row with the next.
+    #[inline(always)]
     pub fn of(image: &Residual) -> Self {
-        let mut pairs = vec![[0; 2 * STRIDE]; image.height - 1];
-        for (pair, rows) in pairs.iter_mut().zip(image.rows.windows(2)) {
+        let mut pairs = vec![[0; 2 * STRIDE]; image.height];
+        let below = image.rows[1..].iter().chain([&[0; STRIDE]]);
+        for ((pair, row), below) in pairs.iter_mut().zip(&image.rows).zip(below) {
             for (x, pixels) in pair.as_chunks_mut().0.iter_mut().enumerate() {
-                *pixels = [rows[0][x], rows[1][x]];
+                *pixels = [row[x], below[x]];
             }
         }
         Self(pairs)

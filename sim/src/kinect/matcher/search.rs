@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use wide::i16x16;
+
 use super::lanes::{LANES, Lanes, add, less, subtract};
 use super::residual::Residual;
 use super::{RADIUS, SHIFTS};
@@ -35,6 +37,7 @@ const GROUP: usize = LANES * USEFUL;
 
 impl BitImage {
     /// `width` columns of an image, starting `left` columns into it; what lies outside is dark.
+    #[inline(always)]
     pub fn of(residual: &Residual, left: isize, width: usize) -> Self {
         let groups = width.div_ceil(GROUP);
         let mut words = Vec::with_capacity(groups * residual.height);
@@ -44,6 +47,11 @@ impl BitImage {
             let start = left - RADIUS as isize;
             for (index, bits) in bits.iter_mut().enumerate() {
                 let first = start + 64 * index as isize;
+                let room = residual.row_and_room(y);
+                if let Some(pixels) = usize::try_from(first).ok().and_then(|first| room.get(first..first + 64)) {
+                    *bits = brighter(pixels.first_chunk().expect("as many"));
+                    continue;
+                }
                 let inside = |column: isize| column.clamp(0, residual.width as isize) as usize;
                 let pixels = &residual.row(y)[inside(first)..inside(first + 64)];
                 let skipped = inside(first).wrapping_add_signed(-first);
@@ -67,6 +75,16 @@ impl BitImage {
     fn at(&self, group: usize, y: usize) -> Lanes {
         self.words[y * self.groups + group]
     }
+}
+
+/// Which of 64 pixels are brighter than their surroundings.
+#[inline(always)]
+fn brighter(pixels: &[i16; 64]) -> u64 {
+    let mut bits = 0;
+    for (part, pixels) in pixels.as_chunks().0.iter().enumerate() {
+        bits |= u64::from(i16x16::new(*pixels).simd_gt(i16x16::ZERO).to_bitmask()) << (16 * part);
+    }
+    bits
 }
 
 /// The reference as every candidate disparity sees it.

@@ -110,7 +110,7 @@ fn sub_pixel_shifts_are_not_drawn_to_whole_pixels() {
         let shift = 5.0 + f64::from(eighths) / 8.0;
         let z = 1.0 / (1.0 / bench.calibration.reference_distance + shift / 43.5);
         let infrared = bench.infrared(|_, _| z, DOT, AMBIENT, 0.0);
-        let live = Live::of(Residual::of(infrared.pixels(), 640, 480));
+        let live = Live::of(&Residual::of(infrared.pixels(), 640, 480));
         let (mut sum, mut count) = (0.0, 0.0);
         let candidate = (5 + i16::from(eighths > 4) - SHIFTS.start as i16) as u8;
         let mut candidates = [NO_MATCH; 640];
