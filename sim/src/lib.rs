@@ -5,7 +5,8 @@
 //! What is simulated: `scenario` says what, `simulator` is that as hardware would be. In it `world` is the place, `robot`
 //! the device, `physics` moves the one through the other (the only room that names the physics engine), `render` makes
 //! images (the only one that names wgpu), `kinect` makes of them what the device gives out; `random` gives every effect
-//! its own stream. `validation` holds the device against published figures. `textured_room` makes a small recording with known truth without any of them.
+//! its own stream. `validation` holds the device against published figures, `paper` the estimator against a paper's.
+//! `textured_room` makes a small recording with known truth without any of them.
 
 pub mod cli;
 pub mod evaluation;
@@ -14,6 +15,7 @@ pub mod kinect;
 pub mod light;
 pub mod modes;
 pub mod new_folder;
+mod paper;
 pub mod physics;
 pub mod random;
 pub mod record;

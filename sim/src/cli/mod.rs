@@ -7,6 +7,7 @@ mod difficulty;
 mod doctor;
 mod output;
 mod overrides;
+mod paper;
 mod record;
 mod render;
 mod replay;
@@ -62,6 +63,7 @@ enum Command {
     Check(check::Check),
     Difficulty(difficulty::Difficulty),
     Doctor(doctor::Doctor),
+    Paper(paper::Paper),
     Record(record::Record),
     Render(render::Render),
     Replay(replay::Replay),
@@ -118,6 +120,7 @@ pub fn run() -> ExitCode {
         Command::Check(check) => check.run(),
         Command::Difficulty(difficulty) => difficulty.run(),
         Command::Doctor(doctor) => doctor.run(),
+        Command::Paper(paper) => paper.run(),
         Command::Record(record) => record.run(),
         Command::Render(render) => render.run(),
         Command::Replay(replay) => replay.run(),

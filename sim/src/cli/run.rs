@@ -77,6 +77,20 @@ impl Run {
 
 /// Drives one; how many of its expectations were missed.
 fn run(name: &str, source: &Source, scenario: &Scenario, out: &Path) -> Result<usize, Failure> {
+    let log = drive(name, source, scenario, out)?;
+    for warning in &log.warnings {
+        tell(&format!("warning: {warning}"));
+    }
+    answer(&format!("{}\n{}", headline(name, &log), table::of(&log)));
+    if !log.expectations.is_empty() {
+        answer(&table::of_expectations(&log.expectations));
+    }
+    answer(&format!("report: {}", out.join("report.html").display()));
+    Ok(log.expectations.iter().filter(|expectation| !expectation.held).count())
+}
+
+/// Drives one, and keeps its results in `out`.
+pub(super) fn drive(name: &str, source: &Source, scenario: &Scenario, out: &Path) -> Result<RunLog, Failure> {
     output::check(out)?;
     let world = stage::world(source, scenario)?;
     let mut simulator = stage::simulator(source, scenario, &world)?;
@@ -94,16 +108,8 @@ fn run(name: &str, source: &Source, scenario: &Scenario, out: &Path) -> Result<u
     let outcome = run.drive();
     progress.finish_and_clear();
     let log = outcome.map_err(|error| stage::blame(source, error))?;
-    for warning in &log.warnings {
-        tell(&format!("warning: {warning}"));
-    }
     output::publish(out, |folder| report::write(&log, folder).map(drop))?;
-    answer(&format!("{}\n{}", headline(name, &log), table::of(&log)));
-    if !log.expectations.is_empty() {
-        answer(&table::of_expectations(&log.expectations));
-    }
-    answer(&format!("report: {}", out.join("report.html").display()));
-    Ok(log.expectations.iter().filter(|expectation| !expectation.held).count())
+    Ok(log)
 }
 
 /// What was driven, and how quickly it was computed.

@@ -7,9 +7,12 @@ mod tests;
 
 use nalgebra::Isometry3;
 use serde::Serialize;
-use sunblind_estimator::Timestamp;
+use sunblind_estimator::{Mode, Timestamp};
 
 use crate::runner::log::FrameLog;
+
+/// Shortest stretch in one mode that says how it drifts, metres.
+const SHORTEST_STRETCH: f64 = 1.0;
 
 /// A pose at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +118,24 @@ pub fn frame_steps(frames: &[FrameLog], truth: &[StampedPose]) -> Vec<(Step, Ste
         (Step::of(&motion), Step::of(&relative_error(&pair[0], &pair[1])))
     };
     pair_by_time(frames, truth).windows(2).map(step).collect()
+}
+
+/// Errors at the ends of all stretches that were driven in one mode, as a share of their lengths, percent. Each stretch is
+/// held against the truth from its own start; those that are shorter than a metre don't count. NaN when there are none.
+pub fn drift_in_mode(frames: &[FrameLog], truth: &[StampedPose], mode: Mode) -> f64 {
+    let (mut error, mut length) = (0.0, 0.0);
+    for stretch in frames.chunk_by(|frame, next| frame.mode == next.mode) {
+        if stretch[0].mode != mode {
+            continue;
+        }
+        let pairs = pair_by_time(stretch, truth);
+        let gone = drift::path_lengths(&pairs).last().copied().unwrap_or(0.0);
+        if gone >= SHORTEST_STRETCH {
+            error += translation(&relative_error(&pairs[0], &pairs[pairs.len() - 1]));
+            length += gone;
+        }
+    }
+    100.0 * error / length
 }
 
 /// The pose of `truth` (in time order) at exactly `time`.

@@ -1,0 +1,78 @@
+//! `sunblind paper`: a paper's experiments, driven again.
+
+use std::fs;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::{Failure, answer, run};
+use crate::paper::{Outcome, goals, page};
+use crate::scenario::{AnyScenario, Fault, Override, Source};
+
+const HELP: &str = "\
+Examples:
+  sunblind paper a --quick
+      a quarter of the way, once: some five minutes
+  sunblind paper a --quick --seeds 10
+      the same with ten seeds, their mean and spread
+  sunblind paper a
+      the whole way of 1250 s, three times: more than an hour
+
+To be called where the scenarios are: scenarios/paper/experiment_1.toml and experiment_1_quarter.toml. Each run's report is
+in the output folder, and paper_a.md, which sets the paper's tables beside ours. A goal that is missed is said so there; it
+is no error.";
+
+/// Drive a paper's experiments, and set its tables beside ours.
+#[derive(Args)]
+#[command(after_long_help = HELP)]
+pub(super) struct Paper {
+    /// a: multispectral visual odometry, fused with the wheels
+    #[arg(value_name = "PAPER")]
+    paper: Which,
+    /// A quarter of the way, and one seed
+    #[arg(long)]
+    quick: bool,
+    /// How many seeds [default: 3, with --quick 1]
+    #[arg(long, value_name = "N")]
+    seeds: Option<NonZero<u64>>,
+    /// Where the runs and the page go
+    #[arg(long, value_name = "DIR", default_value = "out/paper_a")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Which {
+    A,
+}
+
+impl Paper {
+    pub fn run(&self) -> Result<(), Failure> {
+        let Which::A = self.paper;
+        let (file, form, usual) = match self.quick {
+            true => ("experiment_1_quarter.toml", "a quarter of it", 1),
+            false => ("experiment_1.toml", "in full", 3),
+        };
+        let file = Path::new("scenarios/paper").join(file);
+        let mut outcomes = Vec::new();
+        for seed in 1..=self.seeds.map_or(usual, NonZero::get) {
+            let source = Source::read(&file, &[Override::seed(seed)])?;
+            let no_robot = || source.blame(Fault::new("world.name", "experiment 1 is a robot's"));
+            let AnyScenario::Robot(scenario) = source.scenario()? else { return Err(no_robot().into()) };
+            let name = format!("experiment_1, seed {seed}");
+            let log = run::drive(&name, &source, &scenario, &self.out.join(format!("experiment_1_seed_{seed}")))?;
+            outcomes.extend(Outcome::of(&log));
+        }
+        let page_file = self.out.join("paper_a.md");
+        let text = page(&outcomes, form);
+        // Beside, then in its place: half a page would look like a whole one.
+        let unfinished = self.out.join("paper_a.md.new");
+        fs::create_dir_all(&self.out)
+            .and_then(|()| fs::write(&unfinished, &text))
+            .and_then(|()| fs::rename(&unfinished, &page_file))
+            .map_err(|source| Failure::Unwritable { file: page_file.clone(), source })?;
+        let missed = goals(&outcomes).iter().filter(|goal| !goal.held()).count();
+        answer(&format!("{text}\n{missed} of {} goals missed; page: {}", goals(&outcomes).len(), page_file.display()));
+        Ok(())
+    }
+}
