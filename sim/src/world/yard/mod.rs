@@ -29,7 +29,7 @@ use super::shape::Place;
 use super::way::rounded_loop;
 use houses::{Facade, Fill, Opening, fence, wall};
 use land::on_ground;
-use plants::{Seen, conifer, flowers, hedge, shrub, tree};
+use plants::{conifer, flowers, hedge, shrub, tree};
 use things::{
     barrel, bench, bicycle, bicycle_stand, bollard, car, grate, kerb, manhole, picnic_table, raised_bed, shed, sign,
     street_lamp, tub, wheeled_bin,
@@ -161,12 +161,12 @@ fn walls_around(scene: &mut Scene, seed: u64) {
     hedge(scene, "east hedge", [[24.5, 1.0], [24.5, 6.0]], 0.9, 2.2, seed);
     street::passing_car(scene);
     // Beyond: what closes the view above the walls.
-    tree(scene, "lime beyond the garages", [5.0, -9.5], 9.5, Seen::FromAfar, seed);
-    tree(scene, "second lime beyond the garages", [13.0, -10.0], 10.0, Seen::FromAfar, seed);
-    tree(scene, "lime in the south-east", [21.5, -2.5], 7.5, Seen::FromAfar, seed);
-    tree(scene, "lime beyond the gate", [-3.5, 3.0], 7.5, Seen::FromAfar, seed);
-    tree(scene, "lime beyond the wall", [27.5, 9.0], 8.0, Seen::FromAfar, seed);
-    tree(scene, "second lime beyond the wall", [27.5, 16.0], 7.0, Seen::FromAfar, seed);
+    tree(scene, "lime beyond the garages", [5.0, -9.5], 9.5, seed);
+    tree(scene, "second lime beyond the garages", [13.0, -10.0], 10.0, seed);
+    tree(scene, "lime in the south-east", [21.5, -2.5], 7.5, seed);
+    tree(scene, "lime beyond the gate", [-3.5, 3.0], 7.5, seed);
+    tree(scene, "lime beyond the wall", [27.5, 9.0], 8.0, seed);
+    tree(scene, "second lime beyond the wall", [27.5, 16.0], 7.0, seed);
 }
 
 fn beside_the_drive(scene: &mut Scene, seed: u64) {
@@ -223,14 +223,14 @@ fn beside_the_gravel(scene: &mut Scene, seed: u64) {
     shrub(scene, "gravel, tub's shrub", [17.45, 4.25], [0.7, 1.2], Surface::Foliage, seed);
     conifer(scene, "corner conifer", [18.6, 3.4], 4.2, seed);
     shrub(scene, "corner shrub", [17.9, 5.6], [1.0, 0.9], Surface::Hedge, seed);
-    tree(scene, "corner cherry", [21.4, 4.0], 4.6, Seen::FromNear, seed);
+    tree(scene, "corner cherry", [21.4, 4.0], 4.6, seed);
 }
 
 fn on_the_lawn(scene: &mut Scene, seed: u64) {
-    tree(scene, "apple tree", [11.2, 12.2], 4.8, Seen::FromNear, seed);
-    tree(scene, "pear tree", [15.15, 8.0], 4.4, Seen::FromNear, seed);
-    tree(scene, "plum tree", [9.4, 9.0], 4.0, Seen::FromNear, seed);
-    tree(scene, "cherry tree", [21.5, 9.4], 5.0, Seen::FromNear, seed);
+    tree(scene, "apple tree", [11.2, 12.2], 4.8, seed);
+    tree(scene, "pear tree", [15.15, 8.0], 4.4, seed);
+    tree(scene, "plum tree", [9.4, 9.0], 4.0, seed);
+    tree(scene, "cherry tree", [21.5, 9.4], 5.0, seed);
     conifer(scene, "spruce", [20.0, 12.6], 5.2, seed);
     hedge(scene, "lawn hedge, south part", [[17.9, 7.0], [17.9, 10.6]], 0.7, 1.15, seed);
     hedge(scene, "lawn hedge, north part", [[17.9, 12.2], [17.9, 15.6]], 0.7, 1.1, seed);

@@ -135,17 +135,8 @@ fn leafy(
     }
 }
 
-/// From where a tree can be seen.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Seen {
-    /// From below it.
-    FromNear,
-    /// From some 6 m and more: half as many sprays of leaves, which are larger, cover as much.
-    FromAfar,
-}
-
 /// A broad-leaved tree, `tall` metres.
-pub(super) fn tree(scene: &mut Scene, name: &str, [x, y]: [f32; 2], tall: f32, seen: Seen, seed: u64) {
+pub(super) fn tree(scene: &mut Scene, name: &str, [x, y]: [f32; 2], tall: f32, seed: u64) {
     let mut rng = random(seed, name);
     let (place, girth) = (on_ground(x, y, 360.0 * rng.random::<f32>()), 0.028 * tall);
     let fork = 0.36 * tall;
@@ -171,9 +162,8 @@ pub(super) fn tree(scene: &mut Scene, name: &str, [x, y]: [f32; 2], tall: f32, s
     scene.piece(&format!("{name}, crown"), Kind::Decor, place, |piece| {
         for &[centre, radii] in &lumps {
             let mapping = piece.mapping(Surface::Foliage);
-            let (faces, size) = if seen == Seen::FromNear { ([9, 5], 0.06) } else { ([7, 4], 0.085) };
-            piece.mesh(Surface::Foliage, &lump(centre, radii, faces, 0.3, mapping, &mut rng));
-            leafy(piece, Surface::Foliage, [centre, radii], size * tall, &lumps, &mut rng);
+            piece.mesh(Surface::Foliage, &lump(centre, radii, [9, 5], 0.3, mapping, &mut rng));
+            leafy(piece, Surface::Foliage, [centre, radii], 0.06 * tall, &lumps, &mut rng);
         }
     });
 }
