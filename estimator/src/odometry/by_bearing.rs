@@ -1,7 +1,6 @@
 //! Odometry without depth: features of colour images say how the camera turned and which way it went; how far, the wheels
-//! and, where enough of it is seen, the ground that passes below;
-//! or, where the infrared image was taken at the same instant and the parameters say so, the stereo camera that the two
-//! make (paper A, §3.2).
+//! and, where enough of it is seen, the ground that passes below; or, where the infrared image was taken at the same instant
+//! and the parameters say so, the stereo camera that the two make (paper A, §3.2).
 
 use nalgebra::{Isometry3, Point2, Vector3};
 use serde::{Deserialize, Serialize};
