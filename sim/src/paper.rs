@@ -110,7 +110,7 @@ pub fn page(outcomes: &[Outcome], form: &str) -> String {
         "# The first paper's experiments, there and here\n\n\
          Experiment 1, {form}: one drive through lamplight, sun and darkness, {path:.1} m in {duration:.0} s, seed{} {}. A \
          person steers. The paper says neither how long its way was nor how it slipped: its metres are another \
-         way's. Of several runs the mean, and from the least to the largest.\n\n## Table 4: RMSE\n\n",
+         way's. Of several runs the mean, and from the least to the largest. Made by `sunblind paper a`.\n\n## Table 4: RMSE\n\n",
         if seeds.len() == 1 { "" } else { "s" },
         seeds.join(", ")
     );
