@@ -207,7 +207,10 @@ impl ByBearing {
             let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
             let scale =
                 self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
-            return Ok(scale.map_or(motion.clone(), |scale| motion.scaled(&scale)));
+            return Ok(match scale {
+                Some(scale) => motion.scaled(&scale),
+                None => motion,
+            });
         };
         let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {
             let inverse_depth = inverse_depth.map_or(DepthPair::UNMEASURED, |found| (found.value, found.sigma));
