@@ -18,7 +18,7 @@ fn check(files: &[&Path], options: &[&str]) -> Output {
 fn every_shipped_scenario_is_ok_in_a_line() {
     let within = |folder| fs::read_dir(shipped(folder)).expect("scenarios").map(|entry| entry.unwrap().path());
     let files: Vec<_> =
-        within("").chain(within("lights")).chain(within("modes")).filter(|path| path.is_file()).collect();
+        ["", "lights", "modes", "paper"].into_iter().flat_map(within).filter(|path| path.is_file()).collect();
     let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
     for options in [&[][..], &["--short", "--seed", "7"]] {
         let output = check(&files, options);

@@ -29,9 +29,14 @@ pub struct Innovation<const M: usize> {
 }
 
 impl<const M: usize> Innovation<M> {
+    /// H P Hᵀ: how uncertain what was predicted is where it is measured.
+    pub fn expected(&self) -> SMatrix<f64, M, M> {
+        self.jacobian * self.predicted * self.jacobian.transpose()
+    }
+
     /// H P Hᵀ + R.
     pub fn covariance(&self) -> SMatrix<f64, M, M> {
-        self.jacobian * self.predicted * self.jacobian.transpose() + self.noise
+        self.expected() + self.noise
     }
 
     /// Eᵀ (H P Hᵀ + R)⁻¹ E.

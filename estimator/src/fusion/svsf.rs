@@ -50,12 +50,11 @@ impl SvsfGain {
     /// Eqs. 15–16 for one component after the other: (|E| + γ|E_{k|k}|) · sat(E/φ) / E, which is
     /// (|E| + γ|E_{k|k}|) / max(|E|, φ) and so needs no care at E = 0.
     fn shares<const M: usize>(&self, seen: &Innovation<M>) -> SVector<f64, M> {
-        let expected = seen.covariance() - seen.noise;
+        let expected = seen.expected();
         SVector::from_fn(|i, _| {
             let (error, last) = (seen.error[i].abs(), seen.last_posterior[i].abs());
-            let variances = [seen.noise[(i, i)], expected[(i, i)]];
-            let [noise, predicted] = variances.map(|variance| variance.max(0.0).sqrt());
-            let widened = if predicted < noise { noise / predicted.max(NARROWEST_LAYER) } else { 1.0 };
+            let [noise, predicted] = [seen.noise, expected].map(|covariance| covariance[(i, i)].max(0.0).sqrt());
+            let widened = (noise / predicted.max(NARROWEST_LAYER)).max(1.0);
             let layer = (self.0.layer_sigma * noise * widened).max(NARROWEST_LAYER);
             (error + self.0.gamma * last) / error.max(layer)
         })

@@ -1,9 +1,9 @@
 //! Motion from rays alone: two views without depth say how the camera turned and which way it went, not how far.
 
-use nalgebra::{Isometry3, Matrix6, SMatrix, Unit, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6, SMatrix, Vector3, Vector6};
 
+use super::annealed::annealed;
 use super::{MotionFailure, Scale};
-use crate::geometry::exp_se3;
 
 /// The same thing in two views: the rays to it, z = 1, and σ of either, in the same measure.
 #[derive(Clone, Copy, Debug)]
@@ -43,10 +43,6 @@ impl EpipolarMotion {
 const ITERATIONS: usize = 15;
 /// Largest distance of an inlier from its epipolar line, in σ.
 const MAX_DISTANCE: f64 = 3.0;
-/// Scale of the Cauchy weight, in σ.
-const CAUCHY: f64 = 1.5;
-/// In the first rounds the weight is this much wider: the wheels may be off by a degree. Falls by half each round.
-const FIRST_WIDTH: f64 = 16.0;
 /// σ along the way gone, metres: nothing is known of it.
 const UNKNOWN: f64 = 3.0;
 
@@ -64,20 +60,12 @@ pub fn epipolar_motion(
 ) -> Result<EpipolarMotion, MotionFailure> {
     let length = start.translation.vector.norm();
     let way = Way { camera_at: start.inverse().translation.vector, information: (stray * length).powi(-2) };
-    let mut motion = *start;
-    let mut width = FIRST_WIDTH;
-    for _ in 0..ITERATIONS {
-        let (hessian, gradient) = normal(pairs, &way, &motion, CAUCHY * width);
-        let Some(cholesky) = hessian.cholesky() else { break };
-        let step: Vector6<f64> = -cholesky.solve(&gradient);
-        motion = exp_se3(&step) * motion;
-        motion.translation.vector = motion.translation.vector.normalize() * length;
-        if width == 1.0 && step.norm() < 1e-7 {
-            break;
-        }
-        width = (0.5 * width).max(1.0);
-    }
-    motion.rotation.renormalize();
+    let motion = annealed(
+        start,
+        ITERATIONS,
+        |motion, cauchy| normal(pairs, &way, motion, cauchy),
+        |motion| motion.translation.vector = motion.translation.vector.normalize() * length,
+    );
     let inliers: Vec<bool> = pairs
         .iter()
         .map(|pair| Line::of(pair, &motion).is_some_and(|line| line.distance.abs() < MAX_DISTANCE))
@@ -95,7 +83,7 @@ pub fn epipolar_motion(
     let squares: f64 = agreeing.iter().filter_map(|pair| Some(Line::of(pair, &motion)?.distance.powi(2))).sum();
     let misfit = (squares / found as f64).max(1.0);
     let mut covariance = cholesky.inverse() * misfit;
-    let along = Unit::new_normalize(motion.translation.vector).into_inner();
+    let along = motion.translation.vector.normalize();
     let mut corner = covariance.fixed_view_mut::<3, 3>(0, 0);
     corner += along * along.transpose() * (UNKNOWN * UNKNOWN);
     Ok(EpipolarMotion { camera_from_reference: motion, covariance, inliers })
@@ -162,6 +150,7 @@ fn normal(pairs: &[RayPair], way: &Way, motion: &Isometry3<f64>, cauchy: f64) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::exp_se3;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};

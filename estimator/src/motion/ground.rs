@@ -59,19 +59,20 @@ pub fn scale_over_ground<'a>(
 ) -> Option<Scale> {
     let candidates: Vec<Candidate> = pairs.filter_map(|pair| candidate(pair, camera_from_reference, ground)).collect();
     let expected = ground.down / ground.height;
+    // The tilt is about what it was; how high the camera is the data alone say.
+    let across = Matrix3::identity() - ground.down * ground.down.transpose();
+    let known = across * (TILT / ground.height).powi(-2);
     let mut plane = expected;
-    let mut information = Matrix3::zeros();
+    let mut information = known;
     let mut agreeing = 0.0;
     for _ in 0..ITERATIONS {
-        // The tilt is about where it was; how high the camera is says the data alone.
-        let across = Matrix3::identity() - ground.down * ground.down.transpose();
-        information = across * (TILT / ground.height).powi(-2);
-        let mut right = information * expected;
+        information = known;
+        let mut right = known * expected;
         agreeing = 0.0;
         for Candidate { ray, inverse_depth, sigma } in &candidates {
-            let expected = plane.dot(ray);
-            let sigma = sigma.hypot(UNEVEN * expected);
-            let weight = (1.0 + ((inverse_depth - expected) / (CAUCHY * sigma)).powi(2)).recip();
+            let of_plane = plane.dot(ray);
+            let sigma = sigma.hypot(UNEVEN * of_plane);
+            let weight = (1.0 + ((inverse_depth - of_plane) / (CAUCHY * sigma)).powi(2)).recip();
             information += ray * ray.transpose() * (weight / (sigma * sigma));
             right += ray * (inverse_depth * weight / (sigma * sigma));
             agreeing += weight;

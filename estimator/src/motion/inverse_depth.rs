@@ -3,8 +3,9 @@
 
 use nalgebra::{Isometry3, Matrix2, Matrix2x3, Matrix2x6, Matrix3, Matrix6, Unit, Vector2, Vector6};
 
+use super::annealed::annealed;
 use super::{EpipolarMotion, MotionFailure, RayPair};
-use crate::geometry::{exp_se3, skew};
+use crate::geometry::skew;
 
 /// A pair of rays, and the inverse depth (1/Z) of what the reference camera sees.
 #[derive(Clone, Copy, Debug)]
@@ -35,10 +36,6 @@ pub struct Expected {
 const ITERATIONS: usize = 20;
 /// Largest χ² of an inlier, of two degrees of freedom: one in 370 is larger, as of one degree beyond 3 σ.
 const MAX_CHI_SQUARED: f64 = 11.83;
-/// Scale of the Cauchy weight, in σ.
-const CAUCHY: f64 = 1.5;
-/// In the first rounds the weight is this much wider: the wheels may be off by a degree. Falls by half each round.
-const FIRST_WIDTH: f64 = 16.0;
 /// Largest inverse depth, 1/m.
 const NEAREST: f64 = 4.0;
 
@@ -54,19 +51,11 @@ pub fn inverse_depth_motion(
     shared_sigma: f64,
     min_inliers: usize,
 ) -> Result<EpipolarMotion, MotionFailure> {
-    let mut motion = expected.camera_from_reference;
-    let mut width = FIRST_WIDTH;
-    for _ in 0..ITERATIONS {
-        let Normal { hessian, gradient, .. } = Normal::of(pairs.iter(), expected, &motion, CAUCHY * width);
-        let Some(cholesky) = hessian.cholesky() else { break };
-        let step: Vector6<f64> = -cholesky.solve(&gradient);
-        motion = exp_se3(&step) * motion;
-        if width == 1.0 && step.norm() < 1e-7 {
-            break;
-        }
-        width = (0.5 * width).max(1.0);
-    }
-    motion.rotation.renormalize();
+    let normal = |motion: &Isometry3<f64>, cauchy: f64| {
+        let Normal { hessian, gradient, .. } = Normal::of(pairs.iter(), expected, motion, cauchy);
+        (hessian, gradient)
+    };
+    let motion = annealed(&expected.camera_from_reference, ITERATIONS, normal, |_| ());
     let inliers: Vec<bool> = pairs
         .iter()
         .map(|pair| Miss::of(pair, &motion).is_some_and(|miss| miss.chi_squared() < MAX_CHI_SQUARED))
@@ -193,7 +182,7 @@ impl Normal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::log_se3;
+    use crate::geometry::{exp_se3, log_se3};
     use nalgebra::{Point3, Vector3};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;

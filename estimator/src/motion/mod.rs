@@ -3,6 +3,7 @@
 //! of two views (`dense`); or, without depth, from rays alone (`epipolar`), its length by the ground below (`ground`) or
 //! the inverse depths of a short baseline (`inverse_depth`).
 
+mod annealed;
 mod dense;
 mod epipolar;
 mod ground;

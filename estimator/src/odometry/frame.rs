@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use crate::camera::Rig;
+use crate::camera::{CameraModel, Rig};
 use crate::estimator::Stage;
 use crate::features::surf::{Feature, Surf};
 use crate::image::{DepthImage, GrayImage, Image, RgbImage};
@@ -55,11 +55,16 @@ pub(super) fn depth_noise(params: &EstimatorParams) -> DepthNoise {
     noise
 }
 
+/// For the views that keyframes are aligned by; the paper's own variant has none.
+pub(super) fn view_maker(params: &EstimatorParams, camera: &CameraModel) -> Option<ViewMaker> {
+    (params.variant == Variant::Keyframes).then(|| ViewMaker::new(camera))
+}
+
 /// Makes frames of colour and depth images.
 pub struct FrameBuilder {
     registration: Registration,
     surf: Surf,
-    views: ViewMaker,
+    views: Option<ViewMaker>,
     noise: DepthNoise,
     rig: Rig,
 }
@@ -68,7 +73,7 @@ impl FrameBuilder {
     /// Tables for one rig.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         let (registration, surf) = (Registration::new(rig), Surf::new(params.surf));
-        let views = ViewMaker::new(&rig.colour);
+        let views = view_maker(params, &rig.colour);
         Self { registration, surf, views, noise: depth_noise(params), rig: rig.clone() }
     }
 
@@ -89,8 +94,11 @@ impl FrameBuilder {
                 Some((feature, landmark))
             })
             .unzip();
-        let view = self.views.view(&shade(&luma), &registered);
-        let view = Some(FrameView { view, colour_from_camera: Isometry3::identity(), always: false });
+        let view = self.views.as_ref().map(|views| FrameView {
+            view: views.view(&shade(&luma), &registered),
+            colour_from_camera: Isometry3::identity(),
+            always: false,
+        });
         Frame { features, landmarks, view }
     }
 }

@@ -125,7 +125,7 @@ impl Keyframes {
         stage(Stage::Motion);
         let sparse =
             ransac(&pairs, &self.params.ransac).and_then(|start| refine(&pairs, &start, needed, &self.params.refine));
-        let agreeing = sparse.as_ref().map_or(0, |sparse| sparse.inliers.iter().filter(|inlier| **inlier).count());
+        let agreeing = sparse.as_ref().map_or(0, Motion::inlier_count);
         let asks_all = frame.view.as_ref().is_some_and(|view| view.always || agreeing < FEW);
         let dense = asks_all.then(|| self.by_all_pixels(&frame, sparse.as_ref().ok())).flatten();
         let motion = match (sparse, &dense) {

@@ -22,7 +22,7 @@ pub use frame_to_frame::FrameToFrame;
 pub use keyframes::{KeyframeParams, Keyframes};
 pub use night::NightFrameBuilder;
 
-use frame::depth_noise;
+use frame::{depth_noise, view_maker};
 
 /// Where a frame's camera was, in the frame of the first camera.
 #[derive(Clone, Debug, PartialEq)]

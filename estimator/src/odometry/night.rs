@@ -7,7 +7,7 @@ use crate::image::{DepthImage, InfraredImage};
 use crate::params::EstimatorParams;
 use crate::structure::{AlbedoCamera, DepthNoise, ViewMaker, depth_at, lift};
 
-use super::{Frame, FrameView, depth_noise};
+use super::{Frame, FrameView, depth_noise, view_maker};
 
 /// Least scale of a feature, pixels. Smaller ones lie on what is left of single dots, which are fixed to the sensor.
 const MIN_SCALE: f32 = 2.8;
@@ -15,7 +15,7 @@ const MIN_SCALE: f32 = 2.8;
 /// Makes frames of infrared and depth images.
 pub struct NightFrameBuilder {
     camera: AlbedoCamera,
-    views: ViewMaker,
+    views: Option<ViewMaker>,
     surf: Surf,
     noise: DepthNoise,
     rig: Rig,
@@ -25,7 +25,7 @@ impl NightFrameBuilder {
     /// For one rig; `None` where depth does not lie in the infrared image's pixels.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Option<Self> {
         let camera = (!rig.depth.registered_to_colour).then(|| AlbedoCamera::new(&rig.depth))?;
-        let (views, surf) = (ViewMaker::new(&rig.depth.model), Surf::new(params.surf));
+        let (views, surf) = (view_maker(params, &rig.depth.model), Surf::new(params.surf));
         Some(Self { camera, views, surf, noise: depth_noise(params), rig: rig.clone() })
     }
 
@@ -45,8 +45,11 @@ impl NightFrameBuilder {
                 Some((feature, landmark.moved(&self.rig.colour_from_depth)))
             })
             .unzip();
-        let view = self.views.view(&albedo.levels, &albedo.depth);
-        let view = Some(FrameView { view, colour_from_camera: self.rig.colour_from_depth, always: true });
+        let view = self.views.as_ref().map(|views| FrameView {
+            view: views.view(&albedo.levels, &albedo.depth),
+            colour_from_camera: self.rig.colour_from_depth,
+            always: true,
+        });
         Frame { features, landmarks, view }
     }
 

@@ -71,8 +71,9 @@ impl Paper {
             .and_then(|()| fs::write(&unfinished, &text))
             .and_then(|()| fs::rename(&unfinished, &page_file))
             .map_err(|source| Failure::Unwritable { file: page_file.clone(), source })?;
-        let missed = goals(&outcomes).iter().filter(|goal| !goal.held()).count();
-        answer(&format!("{text}\n{missed} of {} goals missed; page: {}", goals(&outcomes).len(), page_file.display()));
+        let goals = goals(&outcomes);
+        let missed = goals.iter().filter(|goal| !goal.held()).count();
+        answer(&format!("{text}\n{missed} of {} goals missed; page: {}", goals.len(), page_file.display()));
         Ok(())
     }
 }

@@ -10,6 +10,7 @@ use sunblind_estimator::mode::{Class, RULES};
 use sunblind_estimator::structure::DepthNoise;
 
 use crate::render::{ColourSensor, InfraredSensor};
+use crate::world::material::substance::linear;
 
 /// Edge of the blocks in which contrast is judged, pixels: about what a small feature covers.
 const BLOCK: usize = 8;
@@ -83,7 +84,7 @@ impl Information {
 
 /// By green, which every pixel has of its own.
 fn of_colour(image: &RgbImage, chip: &ColourSensor) -> f64 {
-    let linear: [f64; 256] = std::array::from_fn(|level| linear_from_srgb(level as f64 / 255.0));
+    let linear: [f64; 256] = std::array::from_fn(|level| f64::from(linear(level as f32 / 255.0)));
     let per_electron = f64::from(chip.level_per_electron.y);
     let noise = |level: f64| {
         let step = 255_f64.recip() * slope_of_linear(level);
@@ -151,12 +152,7 @@ fn share_with_contrast<P: Copy>(image: &Image<P>, value: impl Fn(P) -> Option<f6
     with_contrast as f64 / (columns * rows).max(1) as f64
 }
 
-/// IEC 61966-2-1.
-fn linear_from_srgb(level: f64) -> f64 {
-    if level <= 0.04045 { level / 12.92 } else { ((level + 0.055) / 1.055).powf(2.4) }
-}
-
-/// Its derivative, at a linear level.
+/// How fast sRGB's linear level grows with the encoded one (IEC 61966-2-1), at a linear level.
 fn slope_of_linear(linear: f64) -> f64 {
     if linear <= 0.0031308 { 12.92_f64.recip() } else { 2.4 / 1.055 * linear.powf(1.4 / 2.4) }
 }

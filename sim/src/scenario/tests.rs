@@ -34,7 +34,7 @@ pub(super) fn robot(text: &str) -> Scenario {
 /// Every file of `scenarios/`.
 pub(super) fn shipped() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
-    let folders = [folder.clone(), folder.join("lights"), folder.join("modes")];
+    let folders = ["", "lights", "modes", "paper"].map(|name| folder.join(name));
     let files = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()));
     let files: Vec<_> = files.filter(|file| file.extension().is_some_and(|extension| extension == "toml")).collect();
     assert!(files.len() >= 5, "{files:?}");

@@ -1,3 +1,5 @@
+//! The switch by itself, fed with energies over time.
+
 use super::*;
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};

@@ -1,3 +1,5 @@
+//! Inverse depths of scenes whose depth is known everywhere.
+
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::*;

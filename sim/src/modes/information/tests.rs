@@ -1,3 +1,5 @@
+//! Images of which it is known how much there is in them.
+
 use nalgebra::Isometry3;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -63,9 +65,9 @@ fn colour_is_judged_by_its_light_and_not_by_its_code() {
     let per_electron = f64::from(chip.level_per_electron.y);
     let striped = |level: f64, sigmas: f64| {
         let sigma = (level / per_electron + f64::from(chip.read_variance)).sqrt() * per_electron;
-        let code = |linear: f64| {
+        let code = |level: f64| {
             (1..=255_u8).min_by(|&a, &b| {
-                let off = |code: u8| (linear_from_srgb(f64::from(code) / 255.0) - linear).abs();
+                let off = |code: u8| (f64::from(linear(f32::from(code) / 255.0)) - level).abs();
                 off(a).total_cmp(&off(b))
             })
         };
