@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Matrix6};
 
 use crate::camera::Rig;
 use crate::estimator::{Stage, StageObserver};
-use crate::fusion::{PlanarPose, VisualPose};
+use crate::fusion::{PlanarPose, VisualOnPlane, VisualPose};
 use crate::geometry::adjoint;
 use crate::image::{DepthImage, Image, InfraredImage, RgbImage};
 use crate::measurement::{Estimate, Health, Mode, Rejection};
@@ -107,6 +107,8 @@ pub(crate) struct Vision {
     odometry: Odometry,
     /// The camera's newest pose, of whichever odometry.
     pose: CameraPose,
+    /// Of a robot on wheels.
+    on_plane: Option<VisualOnPlane>,
     /// What the wheels have said lately.
     wheels: VecDeque<(Timestamp, PlanarPose)>,
     /// Where the wheels had the camera when that pose was found.
@@ -132,6 +134,7 @@ impl Vision {
             by_bearing: ByBearing::new(params, rig),
             odometry: Odometry::new(params),
             pose: CameraPose::start(),
+            on_plane: rig.drive.map(|_| VisualOnPlane::default()),
             wheels: VecDeque::new(),
             found_at: None,
             mode,
@@ -293,17 +296,22 @@ impl Vision {
         let robot_from_camera = self.rig.robot_from_colour;
         let carry = adjoint(&robot_from_camera);
         let (pose, failure, keyframe) = (&tracking.pose, tracking.failure, tracking.keyframe);
-        self.estimate = Estimate {
-            time: Some(time),
-            odom_from_robot: robot_from_camera * pose.start_from_camera * robot_from_camera.inverse(),
+        let visual = VisualPose {
+            time,
+            start_from_robot: robot_from_camera * pose.start_from_camera * robot_from_camera.inverse(),
             covariance: carry * pose.covariance * carry.transpose(),
-            mode: self.mode,
-            health: failure.map_or(Health::Good, Health::Lost),
+            tracked: failure.is_none(),
+            keyframe,
+            doubt: 1.0,
         };
+        let on_plane = self.on_plane.as_mut().map(|on_plane| on_plane.take(&visual));
+        let (odom_from_robot, covariance) = on_plane.map_or((visual.start_from_robot, visual.covariance), |on_plane| {
+            (on_plane.pose.to_isometry(), on_plane.covariance_in_space())
+        });
+        let health = failure.map_or(Health::Good, Health::Lost);
+        self.estimate = Estimate { time: Some(time), odom_from_robot, covariance, mode: self.mode, health };
         self.put_down(time, features, tracking);
-        let Estimate { odom_from_robot: start_from_robot, covariance, .. } = self.estimate;
-        let tracked = failure.is_none();
-        (VisualPose { time, start_from_robot, covariance, tracked, keyframe, doubt: 1.0 }, failure)
+        (visual, failure)
     }
 
     fn put_down(&mut self, time: Timestamp, features: usize, tracking: Tracking) {

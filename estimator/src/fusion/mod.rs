@@ -28,6 +28,7 @@ pub use gate::GateParams;
 pub use gyro::GyroParams;
 pub use planar::{PlanarPose, UncertainPose, wrap_angle};
 pub use svsf::{Svsf, SvsfGain, SvsfParams};
+pub(crate) use visual::VisualOnPlane;
 pub use visual::VisualPose;
 pub use wheel_odometry::{Drive, Step, WheelOdometry, WheelOdometryParams};
 

@@ -59,6 +59,26 @@ impl VisualPose {
     }
 }
 
+/// Visual odometry of a robot on wheels: brought down to the plane from keyframe to keyframe, as the filters take it. In
+/// space, the tilt that it gathers on the way would bend all that comes after.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct VisualOnPlane {
+    keyframe: Option<VisualPose>,
+    start_from_keyframe: UncertainPose,
+}
+
+impl VisualOnPlane {
+    /// `start_from_robot` at a frame.
+    pub fn take(&mut self, frame: &VisualPose) -> UncertainPose {
+        let since = self.keyframe.map_or_else(UncertainPose::default, |keyframe| frame.since(&keyframe));
+        let start_from_robot = self.start_from_keyframe.compose(&since);
+        if frame.keyframe || self.keyframe.is_none() {
+            (self.keyframe, self.start_from_keyframe) = (Some(*frame), start_from_robot);
+        }
+        start_from_robot
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,5 +111,28 @@ mod tests {
         assert!((doubtful.covariance - since.covariance * 4.0).norm() < 1e-12);
         let surer = VisualPose { covariance: Matrix6::identity() * 0.01, ..keyframe };
         assert!(surer.since(&keyframe).covariance.cholesky().is_some());
+    }
+
+    #[test]
+    fn a_tilt_that_has_gathered_does_not_bend_the_way() {
+        let mut on_plane = VisualOnPlane::default();
+        let frame = |start_from_robot: Isometry3<f64>, keyframe: bool| VisualPose {
+            time: Timestamp::from_nanos(0),
+            start_from_robot,
+            covariance: Matrix6::identity() * 0.04,
+            tracked: true,
+            keyframe,
+            doubt: 1.0,
+        };
+        // Half a radian of roll and pitch: in space a metre ahead is 88 cm seen from above.
+        let mut tilted = exp_se3(&Vector6::new(0.0, 0.0, 0.0, 0.2, -0.5, 0.0));
+        let step = PlanarPose::new(0.1, 0.0, 0.1);
+        let mut expected = PlanarPose::default();
+        on_plane.take(&frame(tilted, true));
+        for number in 1..=20 {
+            (tilted, expected) = (tilted * step.to_isometry(), expected * step);
+            let found = on_plane.take(&frame(tilted, number % 3 == 0));
+            assert!(found.pose.minus(&expected).norm() < 1e-9, "{found:?}");
+        }
     }
 }

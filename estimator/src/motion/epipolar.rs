@@ -16,6 +16,24 @@ pub struct RayPair {
     pub sigma: f64,
 }
 
+impl RayPair {
+    /// 1/z in the reference camera's frame under a motion, and its σ; 1/m.
+    pub fn inverse_depth(&self, camera_from_reference: &Isometry3<f64>) -> (f64, f64) {
+        // c × (R r + t/z) = 0.
+        let turned = self.camera.cross(&(camera_from_reference.rotation * self.reference));
+        let shift = self.camera.cross(&camera_from_reference.translation.vector);
+        (-turned.dot(&shift) / shift.norm_squared(), std::f64::consts::SQRT_2 * self.sigma / shift.norm())
+    }
+
+    /// Whether, within so many σ, it lies before the camera and not too near: on its epipolar line alone, and near the
+    /// epipole on any, much would agree that never was one thing.
+    fn may_be_seen(&self, motion: &Isometry3<f64>, sigmas: f64) -> bool {
+        let (inverse_depth, sigma) = self.inverse_depth(motion);
+        let slack = sigmas * sigma;
+        inverse_depth > -slack && inverse_depth < 1.0 / NEAREST + slack
+    }
+}
+
 /// A motion whose length was given.
 #[derive(Clone, Debug)]
 pub struct EpipolarMotion {
@@ -28,27 +46,35 @@ pub struct EpipolarMotion {
 }
 
 impl EpipolarMotion {
+    /// The same, its variance so many times as large.
+    pub fn shared_by(mut self, factor: f64) -> Self {
+        self.covariance *= factor;
+        self
+    }
+
     /// The same way with another length, and what is then known of it.
     pub fn scaled(mut self, scale: &Scale) -> Self {
         let assumed = self.camera_from_reference.translation.vector;
         let (along, sigma) = (assumed.normalize(), scale.sigma * assumed.norm());
         self.camera_from_reference.translation.vector = scale.value * assumed;
         let mut corner = self.covariance.fixed_view_mut::<3, 3>(0, 0);
-        corner += along * along.transpose() * (sigma * sigma - UNKNOWN * UNKNOWN);
+        corner += along * along.transpose() * (sigma * sigma - along.dot(&(corner.clone_owned() * along)));
         self
     }
 }
 
 /// Rounds, at most.
-const ITERATIONS: usize = 15;
+const ITERATIONS: usize = 20;
 /// Largest distance of an inlier from its epipolar line, in σ.
 const MAX_DISTANCE: f64 = 3.0;
+/// Nothing nearer is seen, metres: a Kinect on a robot looks ahead from above its wheels.
+const NEAREST: f64 = 0.3;
 /// σ along the way gone, metres: nothing is known of it.
 const UNKNOWN: f64 = 3.0;
 
 /// Minimises the pairs' distances from their epipolar lines (Sampson's approximation; Hartley & Zisserman 2004, §11.4.3)
-/// from `start`, whose length stays, and from whose way the camera strays by `stray` of its length (σ): going aside and
-/// turning look much alike.
+/// from `start`, whose length stays, and from whose way the camera strays by `stray` metres (σ): going aside and turning
+/// look much alike.
 ///
 /// # Errors
 /// [`MotionFailure::TooFewInliers`] or [`MotionFailure::DegenerateGeometry`].
@@ -59,7 +85,7 @@ pub fn epipolar_motion(
     min_inliers: usize,
 ) -> Result<EpipolarMotion, MotionFailure> {
     let length = start.translation.vector.norm();
-    let way = Way { camera_at: start.inverse().translation.vector, information: (stray * length).powi(-2) };
+    let way = Way { camera_at: start.inverse().translation.vector, information: stray.powi(-2) };
     let motion = annealed(
         start,
         ITERATIONS,
@@ -68,7 +94,10 @@ pub fn epipolar_motion(
     );
     let inliers: Vec<bool> = pairs
         .iter()
-        .map(|pair| Line::of(pair, &motion).is_some_and(|line| line.distance.abs() < MAX_DISTANCE))
+        .map(|pair| {
+            pair.may_be_seen(&motion, MAX_DISTANCE)
+                && Line::of(pair, &motion).is_some_and(|line| line.distance.abs() < MAX_DISTANCE)
+        })
         .collect();
     let found = inliers.iter().filter(|&&inlier| inlier).count();
     if found < min_inliers {
@@ -128,6 +157,9 @@ impl Line {
 fn normal(pairs: &[RayPair], way: &Way, motion: &Isometry3<f64>, cauchy: f64) -> (Matrix6<f64>, Vector6<f64>) {
     let (mut hessian, mut gradient): (Matrix6<f64>, Vector6<f64>) = (SMatrix::zeros(), SMatrix::zeros());
     for pair in pairs {
+        if !pair.may_be_seen(motion, 2.0 * cauchy) {
+            continue;
+        }
         let Some(Line { distance, row }) = Line::of(pair, motion) else { continue };
         let weight = 1.0 / (1.0 + (distance / cauchy).powi(2));
         hessian.ger(weight, &row, &row, 1.0);
@@ -191,21 +223,21 @@ mod tests {
     fn turn_and_direction_are_found_among_mismatches() {
         let (mut sum, runs) = (0.0, 50);
         for seed in 0..runs {
-            let motion = epipolar_motion(&pairs(300, 30, seed), &by_wheels(), 0.02, 30).unwrap();
+            let motion = epipolar_motion(&pairs(300, 30, seed), &by_wheels(), 0.006, 30).unwrap();
             let error = crate::geometry::log_se3(&(motion.camera_from_reference * truth().inverse()));
             assert!(error.fixed_rows::<3>(3).norm() < 0.003, "{error}");
             assert!(error.fixed_rows::<3>(0).norm() < 0.02, "{error}");
             sum += error.dot(&(motion.covariance.try_inverse().unwrap() * error));
         }
         // Five degrees of freedom, the length having been given right; but one mismatch in ten makes the covariance too
-        // small: whoever uses it multiplies it by nine.
+        // small: whoever uses it makes it larger.
         let mean = sum / f64::from(runs as u32);
-        assert!((3.0..54.0).contains(&mean), "{mean}");
+        assert!((3.0..16.0).contains(&mean), "{mean}");
     }
 
     #[test]
     fn nothing_but_mismatches_is_said_so() {
-        let found = epipolar_motion(&pairs(100, 100, 1), &by_wheels(), 0.1, 50);
+        let found = epipolar_motion(&pairs(100, 100, 1), &by_wheels(), 0.03, 50);
         assert!(matches!(found, Err(MotionFailure::TooFewInliers { .. })), "{found:?}");
     }
 }

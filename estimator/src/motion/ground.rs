@@ -94,11 +94,7 @@ fn candidate(pair: &RayPair, camera_from_reference: &Isometry3<f64>, ground: &Gr
     if sine < LEAST_SINE {
         return None;
     }
-    // c × (R r + t/z) = 0.
-    let turned = pair.camera.cross(&(camera_from_reference.rotation * pair.reference));
-    let shift = pair.camera.cross(&camera_from_reference.translation.vector);
-    let inverse_depth = -turned.dot(&shift) / shift.norm_squared();
-    let sigma = std::f64::consts::SQRT_2 * pair.sigma / shift.norm();
+    let (inverse_depth, sigma) = pair.inverse_depth(camera_from_reference);
     let error = inverse_depth * ground.height / ground.down.dot(&pair.reference) - 1.0;
     (error.abs() < LARGEST_ERROR).then_some(Candidate { ray: pair.reference, inverse_depth, sigma })
 }

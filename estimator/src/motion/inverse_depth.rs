@@ -26,7 +26,7 @@ impl DepthPair {
 pub struct Expected {
     /// The reference camera's frame → the camera's.
     pub camera_from_reference: Isometry3<f64>,
-    /// σ aside of the way, as a share of its length: no side slip.
+    /// σ aside of the way, metres.
     pub stray: f64,
     /// σ along the way, metres.
     pub along: f64,
@@ -165,10 +165,9 @@ impl Normal {
     /// Adds what is known before. The camera lies at −Rᵀt in the reference's frame, where ρ moves it by −Rᵀρ.
     fn expect(&mut self, expected: &Expected, motion: &Isometry3<f64>) {
         let way = expected.camera_from_reference.inverse().translation.vector;
-        let length = way.norm();
         let along = Unit::new_normalize(way).into_inner();
         let along = along * along.transpose();
-        let aside = (Matrix3::identity() - along) / (expected.stray * length).powi(2);
+        let aside = (Matrix3::identity() - along) / expected.stray.powi(2);
         let information = aside + along / (expected.along * expected.along);
         let turned = motion.rotation.to_rotation_matrix();
         let strayed = motion.inverse().translation.vector - way;
@@ -223,7 +222,7 @@ mod tests {
     fn by_wheels() -> Expected {
         let mut start = exp_se3(&Vector6::new(0.003, 0.0, 0.0, 0.0, 0.009, 0.0)) * truth();
         start.translation.vector *= 1.1;
-        Expected { camera_from_reference: start, stray: 0.05, along: 1.0 }
+        Expected { camera_from_reference: start, stray: 0.015, along: 1.0 }
     }
 
     #[test]

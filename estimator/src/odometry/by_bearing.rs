@@ -18,6 +18,7 @@ use crate::motion::{
 use crate::params::EstimatorParams;
 use crate::structure::{InverseDepth, Stereo};
 
+use super::wheel_slip::WheelSlip;
 use super::{CameraPose, FeatureTrack, Tracking};
 
 /// Shortest way between two views that says something, metres: what a metre away is moves by 25 px.
@@ -31,13 +32,14 @@ const MAX_WAY: f64 = 0.5;
 const LEAST_OVERLAP: f64 = 0.25;
 /// Fewest pairs that agree: mismatches near the epipolar line are many more than near a point.
 const MIN_INLIERS: usize = 40;
-/// σ of how far a robot strays from the way that its wheels say, as a share of it: no side slip (paper A, Eq. 1) but on
-/// gravel. A guess.
-const STRAY: f64 = 0.02;
-/// By how much the variance is larger than independent features would make it: frames share a keyframe's noise, and
-/// mismatches bend the valley in which going aside and turning look alike. A guess: of simulated pairs, one in ten
-/// mismatched, the normalised error squared is 42 where five degrees of freedom would make it 5.
-const SHARED: f64 = 9.0;
+/// σ of how far a robot strays from the way that its wheels say, as a share of it: no side slip (paper A, Eq. 1). A guess.
+const STRAY: f64 = 0.01;
+/// … but where it turns it skids, and where about nobody knows: m/√rad, as in [`WheelOdometryParams`].
+const STRAY_TURNING: f64 = 0.05;
+/// By how much the variance is larger than independent features would make it: mismatches bend the valley in which going
+/// aside and turning look alike. Of simulated pairs, one in ten mismatched, the normalised error squared is 12 where five
+/// degrees of freedom would make it 5.
+const SHARED: f64 = 2.5;
 
 /// Fewest pairs with a depth by stereo that say how far; with fewer the wheels do.
 const MIN_MEASURED: usize = 30;
@@ -80,6 +82,12 @@ fn ground(rig: &Rig) -> Option<GroundPlane> {
     (height > 0.0).then_some(GroundPlane { down, height })
 }
 
+/// σ of how far from where the wheels say a camera may be on either side, metres.
+fn stray(camera_from_reference: &Isometry3<f64>) -> f64 {
+    let (way, turn) = (camera_from_reference.translation.vector.norm(), camera_from_reference.rotation.angle());
+    (STRAY * way).hypot(STRAY_TURNING * turn.sqrt())
+}
+
 struct Keyframe {
     features: Vec<Feature>,
     /// By stereo, of each feature; empty without.
@@ -98,6 +106,8 @@ pub struct ByBearing {
     /// Where the camera is above the ground.
     ground: Option<GroundPlane>,
     keyframe: Option<Keyframe>,
+    /// Until the keyframe.
+    slip: WheelSlip,
     last: CameraPose,
 }
 
@@ -106,8 +116,16 @@ impl ByBearing {
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         let surf = Surf::new(params.surf);
         let stereo = (params.outdoor.method == OutdoorMethod::Stereo).then(|| Stereo::new(rig)).flatten();
-        let (keyframe, last) = (None, CameraPose::start());
-        Self { params: params.clone(), camera: rig.colour, surf, stereo, ground: ground(rig), keyframe, last }
+        Self {
+            params: params.clone(),
+            camera: rig.colour,
+            surf,
+            stereo,
+            ground: ground(rig),
+            keyframe: None,
+            slip: WheelSlip::default(),
+            last: CameraPose::start(),
+        }
     }
 
     /// Whether the infrared image of the same instant is of use.
@@ -117,7 +135,7 @@ impl ByBearing {
 
     /// Gives the keyframe up: what comes next is seen from `pose`.
     pub fn restart(&mut self, pose: CameraPose) {
-        (self.keyframe, self.last) = (None, pose);
+        (self.keyframe, self.slip, self.last) = (None, WheelSlip::default(), pose);
     }
 
     /// Follows one frame that the wheels say was taken at `odom_from_camera`: how many features it has, and its pose.
@@ -161,8 +179,8 @@ impl ByBearing {
         stage(Stage::Motion);
         let inverse_depths: Vec<Option<InverseDepth>> =
             matches.iter().map(|found| *keyframe.inverse_depths.get(found.to)?).collect();
-        let motion = match self.motion(&pairs, &inverse_depths, &start) {
-            Ok(motion) => motion,
+        let (motion, slip) = match self.motion(&pairs, &inverse_depths, &start) {
+            Ok(found) => found,
             Err(failure) => {
                 // Too far gone to be recognised: the wheels alone have been right up to here.
                 let is_far = start.translation.vector.norm() > MAX_WAY;
@@ -177,7 +195,7 @@ impl ByBearing {
         }
         let start_from_camera = keyframe.pose.start_from_camera * motion.camera_from_reference.inverse();
         let carry = adjoint(&start_from_camera);
-        let covariance = keyframe.pose.covariance + carry * motion.covariance * carry.transpose() * SHARED;
+        let covariance = keyframe.pose.covariance + carry * motion.covariance * carry.transpose();
         let mut flow: Vec<f32> = tracks.iter().filter(|track| track.inlier).map(FeatureTrack::length).collect();
         let middle = flow.len() / 2;
         let flow_is_long = *flow.select_nth_unstable_by(middle, f32::total_cmp).1 > MAX_FLOW;
@@ -186,36 +204,40 @@ impl ByBearing {
             || (flow.len() as f64) < LEAST_OVERLAP * found as f64;
         self.last = CameraPose { start_from_camera, covariance };
         if is_keyframe {
+            self.slip = slip;
             self.remember(features, &luma, infrared, odom_from_camera);
         }
         Some((found, Tracking { pose: self.last.clone(), failure: None, tracks, keyframe: is_keyframe }))
     }
 
-    /// Near where the wheels say, `start`; with its length, unless stereo or the ground knows better.
+    /// Near where the wheels say, `start`; with its length, unless stereo or the ground knows better. And what is then known
+    /// of the wheels' slip.
     fn motion(
         &self,
         pairs: &[RayPair],
         inverse_depths: &[Option<InverseDepth>],
         start: &Isometry3<f64>,
-    ) -> Result<EpipolarMotion, MotionFailure> {
+    ) -> Result<(EpipolarMotion, WheelSlip), MotionFailure> {
         let measured = inverse_depths.iter().flatten().count();
         let Some(stereo) = self.stereo.as_ref().filter(|_| measured >= MIN_MEASURED) else {
-            let motion = epipolar_motion(pairs, start, STRAY, MIN_INLIERS)?;
+            let motion = epipolar_motion(pairs, start, stray(start), MIN_INLIERS)?.shared_by(SHARED);
             let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
-            let scale =
+            let look =
                 self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
-            return Ok(match scale {
-                Some(scale) => motion.scaled(&scale),
-                None => motion,
+            let slip = look.map_or(self.slip, |look| self.slip.seen(&look, start.translation.vector.norm()));
+            return Ok(match look {
+                Some(_) => (motion.scaled(&slip.scale()), slip),
+                None => (motion, slip),
             });
         };
         let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {
             let inverse_depth = inverse_depth.map_or(DepthPair::UNMEASURED, |found| (found.value, found.sigma));
             DepthPair { rays, inverse_depth }
         });
-        let expected = Expected { camera_from_reference: *start, stray: STRAY, along: UNKNOWN };
+        let expected = Expected { camera_from_reference: *start, stray: stray(start), along: UNKNOWN };
         let shared_sigma = stereo.shared_sigma(self.params.outdoor.calibration_sigma);
-        inverse_depth_motion(&with_depth.collect::<Vec<_>>(), &expected, shared_sigma, MIN_INLIERS)
+        let motion = inverse_depth_motion(&with_depth.collect::<Vec<_>>(), &expected, shared_sigma, MIN_INLIERS)?;
+        Ok((motion.shared_by(SHARED), self.slip))
     }
 
     fn remember(

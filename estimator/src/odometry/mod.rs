@@ -8,6 +8,7 @@ mod frame;
 mod frame_to_frame;
 mod keyframes;
 mod night;
+mod wheel_slip;
 
 use nalgebra::{Isometry3, Matrix6};
 
