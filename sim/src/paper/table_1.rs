@@ -22,7 +22,8 @@ use crate::validation::scene::Light;
 
 /// What calibration leaves, as in every scenario.
 const RESIDUAL: Residual = Residual { pixels: 0.1, degrees: 0.01 };
-/// A board's square by the least distance that it is seen from: there the board fills the view.
+/// A board's square by the least distance that it is seen from: there the board fills the view. Outdoors smaller ones
+/// would repeat within the 28 px over which the pair of cameras is matched.
 const SQUARE: f64 = 1.0 / 16.0;
 /// A corner is sought in a window of so many squares to all sides: no other is in it.
 const REACH: f64 = 0.45;
