@@ -1,11 +1,17 @@
 //! What the first paper's experiments gave its authors, and what they give here: tables side by side.
 
+mod board;
+mod corner;
+mod table_1;
+
 use std::fmt::Write;
 
 use sunblind_estimator::Mode;
 
 use crate::evaluation::{Evaluation, drift_in_mode, evaluate};
 use crate::runner::log::{RunLog, Track};
+
+pub use table_1::table_1;
 
 /// Tracks in the order of the paper's Table 4, and what it calls them.
 const COLUMNS: [(&str, &str); 4] = [("odometry", "odometry"), ("mvo", "MVO"), ("ekf", "MVO-EKF"), ("svsf", "MVO-SVSF")];
@@ -75,7 +81,20 @@ pub struct Goal {
     most: f64,
 }
 
+/// A part of the page that is measured by itself.
+pub struct Section {
+    /// Its heading and all below, with an empty line at the end.
+    pub text: String,
+    /// What was aimed at there.
+    pub goals: Vec<Goal>,
+}
+
 impl Goal {
+    /// A figure that shall not be larger than `most`.
+    fn at_most(what: String, most: f64, measured: f64) -> Self {
+        Self { what, measured, most }
+    }
+
     /// Whether it was reached.
     pub fn held(&self) -> bool {
         self.measured <= self.most
@@ -103,16 +122,17 @@ pub fn goals(outcomes: &[Outcome]) -> Vec<Goal> {
 }
 
 /// The page. `form`: what was driven, in words.
-pub fn page(outcomes: &[Outcome], form: &str) -> String {
+pub fn page(outcomes: &[Outcome], form: &str, table_1: &Section) -> String {
     let (path, duration) = (mean(outcomes.iter().map(|o| o.path)), mean(outcomes.iter().map(|o| o.duration)));
     let seeds: Vec<String> = outcomes.iter().map(|outcome| outcome.seed.to_string()).collect();
     let mut page = format!(
         "# The first paper's experiments, there and here\n\n\
          Experiment 1, {form}: one drive through lamplight, sun and darkness, {path:.1} m in {duration:.0} s, seed{} {}. A \
          person steers. The paper says neither how long its way was nor how it slipped: its metres are another \
-         way's. Of several runs the mean, and from the least to the largest. Made by `sunblind paper a`.\n\n## Table 4: RMSE\n\n",
+         way's. Of several runs the mean, and from the least to the largest. Made by `sunblind paper a`.\n\n{}## Table 4: RMSE\n\n",
         if seeds.len() == 1 { "" } else { "s" },
-        seeds.join(", ")
+        seeds.join(", "),
+        table_1.text
     );
     let names = COLUMNS.map(|(_, name)| format!("{name}, paper | here"));
     let _ = writeln!(page, "| | {} |\n|---|{}", names.join(" | "), "--:|".repeat(2 * COLUMNS.len()));
@@ -133,7 +153,7 @@ pub fn page(outcomes: &[Outcome], form: &str) -> String {
         let _ = writeln!(page, "| here, {name} | {drift} |");
     }
     let _ = write!(page, "\n## Goals\n\n| | at most | measured | |\n|---|--:|--:|---|\n");
-    for goal in goals(outcomes) {
+    for goal in table_1.goals.iter().chain(&goals(outcomes)) {
         let verdict = if goal.held() { "held" } else { "**missed**" };
         let _ = writeln!(page, "| {} | {} | {:.2} | {verdict} |", goal.what, goal.most, goal.measured);
     }
@@ -195,9 +215,15 @@ mod tests {
 
     #[test]
     fn the_page_has_both_sides_of_each_table() {
-        let page = page(&[outcome(1, 1.0), outcome(2, 2.0)], "in full");
+        let goals = vec![Goal::at_most("σ".into(), 30.0, 31.0)];
+        let table_1 = Section { text: "## Table 1\n\n".into(), goals };
+        let page = page(&[outcome(1, 1.0), outcome(2, 2.0)], "in full", &table_1);
         assert!(page.contains("| x, m | 1.08 | 3.000 (3.000–3.000) | 0.6 |"), "{page}");
         assert!(page.contains("| 0.082 | 0.450 (0.300–0.600) |"), "{page}");
         assert!(page.contains("seeds 1, 2") && page.contains("Beauvisage") && page.contains("**missed**"), "{page}");
+        assert!(
+            page.contains("\n## Table 1\n\n## Table 4") && page.contains("| σ | 30 | 31.00 | **missed** |"),
+            "{page}"
+        );
     }
 }

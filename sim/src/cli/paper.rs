@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::{Failure, answer, run};
-use crate::paper::{Outcome, goals, page};
+use crate::paper::{Outcome, goals, page, table_1};
 use crate::scenario::{AnyScenario, Fault, Override, Source};
+use crate::validation::Effort;
 
 const HELP: &str = "\
 Examples:
   sunblind paper a --quick
-      a quarter of the way at twice the pace, once: some three minutes
+      a quarter of the way at twice the pace, once, and Table 1 of three units: some four minutes
   sunblind paper a --quick --seeds 10
       the same with ten seeds, their mean and spread
   sunblind paper a
@@ -64,14 +65,15 @@ impl Paper {
             outcomes.extend(Outcome::of(&log));
         }
         let page_file = self.out.join("paper_a.md");
-        let text = page(&outcomes, form);
+        let table_1 = table_1(if self.quick { Effort::Reduced } else { Effort::Full })?;
+        let text = page(&outcomes, form, &table_1);
         // Beside, then in its place: half a page would look like a whole one.
         let unfinished = self.out.join("paper_a.md.new");
         fs::create_dir_all(&self.out)
             .and_then(|()| fs::write(&unfinished, &text))
             .and_then(|()| fs::rename(&unfinished, &page_file))
             .map_err(|source| Failure::Unwritable { file: page_file.clone(), source })?;
-        let goals = goals(&outcomes);
+        let goals: Vec<_> = table_1.goals.into_iter().chain(goals(&outcomes)).collect();
         let missed = goals.iter().filter(|goal| !goal.held()).count();
         answer(&format!("{text}\n{missed} of {} goals missed; page: {}", goals.len(), page_file.display()));
         Ok(())
