@@ -172,6 +172,7 @@ mod tests {
             rpe_frame_deg: rmse,
             drift_percent: rmse,
             end_error_m: rmse,
+            anees: 30.0 * rmse,
             path_m: 100.0,
         };
         Outcome {
