@@ -6,6 +6,7 @@ mod corrections;
 mod drift;
 #[cfg(test)]
 mod tests;
+mod tracking;
 
 use nalgebra::{Isometry3, Matrix6};
 use serde::Serialize;
@@ -14,6 +15,7 @@ use sunblind_estimator::{Mode, Timestamp};
 use crate::runner::log::FrameLog;
 
 pub use corrections::{Corrections, corrections};
+pub use tracking::Tracking;
 
 /// Shortest stretch in one mode that says how it drifts, metres.
 const SHORTEST_STRETCH: f64 = 1.0;

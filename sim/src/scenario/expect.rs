@@ -18,8 +18,8 @@ use super::error::nearest;
 use crate::evaluation::{Corrections, Evaluation};
 use crate::modes::Score;
 
-/// The estimates that a run with wheels gives.
-const ESTIMATES: [&str; 4] = ["odometry", "mvo", "ekf", "svsf"];
+/// The estimates that a run with wheels gives; the last one if the scenario wants it.
+const ESTIMATES: [&str; 5] = ["odometry", "mvo", "ekf", "svsf", "odometry_no_gyro"];
 /// What is measured of each, as in [`Evaluation`].
 const MEASURED: [&str; 11] = [
     "rmse_x_m",
@@ -98,7 +98,8 @@ pub struct Bound {
 }
 
 impl Bound {
-    fn holds(&self, value: f64) -> bool {
+    /// Whether a value is within.
+    pub fn holds(&self, value: f64) -> bool {
         value.is_finite() && self.min.is_none_or(|min| value >= min) && self.max.is_none_or(|max| value <= max)
     }
 }
