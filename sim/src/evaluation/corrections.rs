@@ -39,8 +39,8 @@ impl Corrections {
         let largest = |of: fn(&Step) -> f64, counts: &dyn Fn(Timestamp) -> bool| {
             all.iter().filter(|(time, _)| counts(*time)).map(|(_, step)| of(step)).fold(f64::NAN, f64::max)
         };
-        let (shift, turn): (fn(&Step) -> f64, fn(&Step) -> f64) =
-            (|step| step.translation, |step| step.rotation.to_degrees());
+        let shift = |step: &Step| step.translation;
+        let turn = |step: &Step| step.rotation.to_degrees();
         (!all.is_empty()).then(|| Self {
             max_correction_m: largest(shift, &|_| true),
             max_correction_deg: largest(turn, &|_| true),

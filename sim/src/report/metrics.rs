@@ -98,7 +98,7 @@ pub(super) fn metrics(judged: &Judged) -> Vec<Metric> {
     }
     if judged.log.tracks.iter().any(|track| Timing::of(track).is_some()) {
         let total = |track| Timing::of(track).map_or("–".into(), |timing| milliseconds(timing.total.median_ms));
-        metrics.push(plain("Time a frame", "Median over the frames, all stages.", tracks().map(total).collect()));
+        metrics.push(plain("Time a frame", "CPU, median over the frames, all stages.", tracks().map(total).collect()));
     }
     metrics
 }
