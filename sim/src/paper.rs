@@ -182,7 +182,8 @@ pub fn page(outcomes: &[Outcome], form: &str) -> String {
     let _ = write!(page, "\n## Goals\n\n| | wanted | measured | |\n|---|--:|--:|---|\n");
     for goal in goals(outcomes) {
         let verdict = if goal.held() { "held" } else { "**missed**" };
-        let _ = writeln!(page, "| {} | {} | {:.3} | {verdict} |", goal.what, goal.wanted, goal.measured);
+        let measured = if goal.measured.is_finite() { format!("{:.3}", goal.measured) } else { "–".into() };
+        let _ = writeln!(page, "| {} | {} | {measured} | {verdict} |", goal.what, goal.wanted);
     }
     page
 }
@@ -269,6 +270,7 @@ mod tests {
         assert!(page.contains("| 0.082 | 0.450 ± 1.906 |"), "{page}");
         assert!(page.contains("seeds 1, 2") && page.contains("Beauvisage") && page.contains("**missed**"), "{page}");
         assert!(page.contains("| here, the gyro left out | 6.000 ± 0.000 |"), "{page}");
+        assert!(page.contains("| at most 4 | – | **missed** |"), "{page}");
         assert!(page.contains("| outdoor | – | Beauvisage 6.87, Mouats 8.50 |"), "{page}");
     }
 }
