@@ -23,7 +23,7 @@ test: build ## formatting and every test
 lint: ## clippy, warnings are errors
 	cargo clippy --release --workspace --all-targets -- -D warnings
 
-bench: build ## times a frame, simulated and estimated, and SURF beside dlib's where that is built (needs recorded data)
+bench: build ## times a frame, simulated and estimated in each mode, and SURF beside dlib's where that is built (needs recorded data)
 	cargo bench -p sunblind-sim --bench render
 	cargo bench -p sunblind-tests
 

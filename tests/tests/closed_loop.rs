@@ -1,9 +1,11 @@
 //! A simulated robot that drives on its own estimate: nothing cheats, and nothing depends on how it is computed.
 
 use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use sunblind_estimator::Mode;
 use sunblind_sim::record::Recording;
 use sunblind_sim::record::writer::RecordingWriter;
 use sunblind_sim::runner::log::RunLog;
@@ -67,6 +69,46 @@ fn what_was_driven_and_what_is_replayed_without_the_truth_are_equal_to_the_bit()
 
     let other = drive(&Scenario { seed: scenario.seed + 1, ..scenario }, None);
     assert_ne!(driven.digest, other.digest, "the seed decides nothing");
+}
+
+/// The campus' office by night, whose lamps go out.
+const LAMPS_GO_OUT: &str = "\
+seed = 3
+duration_s = 3.0
+[world]
+name = \"campus\"
+[light]
+daylight_scale = 0.0
+[[light.timeline]]
+at_s = 1.2
+lamps = false
+[robot]
+gyro = true
+[path]
+kind = \"waypoints\"
+points_m = [[15.6, 25.0], [15.6, 22.0]]
+";
+
+#[test]
+fn a_drive_across_a_change_of_the_mode_is_replayed_to_the_bit() {
+    let place = tempfile::tempdir().unwrap();
+    let (file, folder) = (place.path().join("lamps.toml"), place.path().join("lamps"));
+    fs::write(&file, LAMPS_GO_OUT).unwrap();
+    let AnyScenario::Robot(scenario) = load(&file).unwrap() else { panic!("a robot's scenario") };
+    let driven = drive(&scenario, Some(&folder));
+    let modes = |log: &RunLog| log.modes.iter().map(|said| (said.time, said.report)).collect::<Vec<_>>();
+    let mut said: Vec<_> = modes(&driven).iter().map(|(_, report)| report.mode).collect();
+    said.dedup();
+    assert_eq!(said, [Mode::Indoor, Mode::Night]);
+
+    let recording = Recording::open(&folder, None).unwrap();
+    for threads in [1, 3] {
+        let options = ReplayOptions { threads: NonZero::new(threads).unwrap(), ..ReplayOptions::default() };
+        let replayed = replay(&recording, localizers(&scenario, &recording.rig), &options).unwrap();
+        assert_eq!(replayed.digest, driven.digest, "{threads} threads");
+        // The switch's own numbers are in no digest.
+        assert!(modes(&replayed) == modes(&driven), "{threads} threads");
+    }
 }
 
 fn run(scenarios: &[&str], out: &Path, options: &[&str], threads_of_the_renderer: Option<&str>) -> Output {

@@ -55,7 +55,11 @@ pub(super) fn localizers(scenario: &Scenario, rig: Rig) -> Result<Vec<Driven>, P
     let written = &scenario.estimator.params;
     let pose_from = scenario.estimator.drives.pose_source().unwrap_or(written.pose_from);
     let params = EstimatorParams { pose_from, ..written.clone() };
-    Ok(vec![Driven::product("mvo", "visual odometry", params, rig)?])
+    let compared = scenario.estimator.odometry_without_gyro;
+    let compared = compared.then(|| Driven::odometry_without_gyro(params.clone(), rig.clone())).transpose()?;
+    let mut localizers = vec![Driven::product("mvo", "visual odometry", params, rig)?];
+    localizers.extend(compared);
+    Ok(localizers)
 }
 
 /// Frames, and how long it still takes, on standard error; nothing where that is no terminal. `frames` is a guess: a

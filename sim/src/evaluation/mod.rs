@@ -1,15 +1,21 @@
 //! Trajectories held against the truth, with the definitions of `evo`.
 
 mod alignment;
+mod consistency;
+mod corrections;
 mod drift;
 #[cfg(test)]
 mod tests;
+mod tracking;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Matrix6};
 use serde::Serialize;
 use sunblind_estimator::{Mode, Timestamp};
 
 use crate::runner::log::FrameLog;
+
+pub use corrections::{Corrections, corrections};
+pub use tracking::Tracking;
 
 /// Shortest stretch in one mode that says how it drifts, metres.
 const SHORTEST_STRETCH: f64 = 1.0;
@@ -52,6 +58,9 @@ pub struct Evaluation {
     pub drift_percent: f64,
     /// Distance from the truth at the last frame, without alignment.
     pub end_error_m: f64,
+    /// Average normalised estimation error squared of x, y and heading, not divided by their number: 3 for a covariance
+    /// that is right, more for one that is too small. `null` for a localiser that gives none.
+    pub anees: f64,
     /// Length of the true path.
     pub path_m: f64,
 }
@@ -62,6 +71,8 @@ struct PosePair {
     time: Timestamp,
     estimate: Isometry3<f64>,
     truth: Isometry3<f64>,
+    /// Of a left perturbation of the estimate.
+    covariance: Matrix6<f64>,
 }
 
 /// Holds `frames` against the poses of `truth` (in time order) at exactly the same instants; both in one world, from
@@ -91,6 +102,7 @@ pub fn evaluate(frames: &[FrameLog], truth: &[StampedPose]) -> Option<Evaluation
         rpe_frame_deg: root_mean_square(frame.iter().map(rotation)).to_degrees(),
         drift_percent: 100.0 * drift::mean_drift(&pairs, &lengths),
         end_error_m: position_error(&last.estimate, &last.truth),
+        anees: consistency::average_nees(&pairs),
         path_m: *lengths.last()?,
     })
 }
@@ -159,7 +171,8 @@ fn pair_by_time(frames: &[FrameLog], truth: &[StampedPose]) -> Vec<PosePair> {
         .iter()
         .filter_map(|frame| {
             let truth = true_pose_at(truth, frame.time)?;
-            Some(PosePair { time: frame.time, estimate: frame.world_from_body, truth })
+            let FrameLog { time, world_from_body, covariance, .. } = *frame;
+            Some(PosePair { time, estimate: world_from_body, truth, covariance })
         })
         .collect()
 }

@@ -16,7 +16,7 @@ mod information;
 mod score;
 
 pub use information::{DEPTH_STEP, Information, Seen};
-pub use score::{Score, score};
+pub use score::{Score, score, switches};
 
 use sunblind_estimator::Timestamp;
 use sunblind_estimator::mode::ModeReport;

@@ -45,6 +45,11 @@ pub fn score(said: &[StampedReport], truth: &[StampedInformation]) -> Option<Sco
     (!moments.is_empty()).then(|| of(&moments))
 }
 
+/// When the mode changed: each time the instant of the first report with another one.
+pub fn switches(said: &[StampedReport]) -> Vec<Timestamp> {
+    said.windows(2).filter(|pair| pair[0].report.mode != pair[1].report.mode).map(|pair| pair[1].time).collect()
+}
+
 /// A mode stays until the next one is chosen; `None` before the first.
 fn moment(
     said: &[StampedReport],

@@ -29,6 +29,15 @@ pub(super) fn percent(value: f64) -> String {
     if value.is_finite() { format!("{value:.1}{NARROW}%") } else { MISSING.into() }
 }
 
+/// A number without a unit: `2.7`, `134`.
+pub(super) fn plain_number(value: f64) -> String {
+    match value.abs() {
+        size if !size.is_finite() => MISSING.into(),
+        size if size < 100.0 => format!("{value:.1}"),
+        _ => format!("{value:.0}"),
+    }
+}
+
 /// A time of work: `4.2 ms`, `48 ms`, `1.3 s`.
 pub(super) fn milliseconds(value: f64) -> String {
     match value {

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::format::{angle, length, milliseconds, percent};
+use super::format::{angle, length, milliseconds, percent, plain_number};
 use super::judged::{Judged, tracked_frames};
 use super::timing::Timing;
 use crate::evaluation::Evaluation;
+use crate::runner::log::Track;
 
 /// A row of the table of tracks.
 #[derive(Serialize)]
@@ -73,9 +74,31 @@ pub(super) fn metrics(judged: &Judged) -> Vec<Metric> {
     if judged.evaluations.iter().any(Option::is_some) {
         metrics.extend(ROWS.iter().map(|row| evaluated(&judged.evaluations, row)));
     }
+    // Neither of these is best where it is least.
+    if judged.evaluations.iter().flatten().any(|evaluation| evaluation.anees.is_finite()) {
+        let anees = |evaluation: &Option<Evaluation>| plain_number(evaluation.map_or(f64::NAN, |e| e.anees));
+        metrics.push(plain(
+            "Consistency (ANEES)",
+            "Mean of the error squared by its covariance, in x, y and heading: 3 where the covariance is right, more where \
+             it is too small.",
+            judged.evaluations.iter().map(anees).collect(),
+        ));
+    }
+    let corrections = judged.log.corrections();
+    if !corrections.is_empty() {
+        let leap = |track: &Track| {
+            let of = corrections.iter().find(|(name, _)| *name == track.name);
+            of.map_or("–".into(), |(_, c)| format!("{}, {}", length(c.max_correction_m), angle(c.max_correction_deg)))
+        };
+        metrics.push(plain(
+            "Largest correction",
+            "What the estimate moved by from one frame to the next that the wheels had not told.",
+            tracks().map(leap).collect(),
+        ));
+    }
     if judged.log.tracks.iter().any(|track| Timing::of(track).is_some()) {
         let total = |track| Timing::of(track).map_or("–".into(), |timing| milliseconds(timing.total.median_ms));
-        metrics.push(plain("Time a frame", "Median over the frames, all stages.", tracks().map(total).collect()));
+        metrics.push(plain("Time a frame", "CPU, median over the frames, all stages.", tracks().map(total).collect()));
     }
     metrics
 }

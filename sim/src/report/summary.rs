@@ -8,7 +8,7 @@ use sunblind_estimator::mode::Energies;
 
 use super::judged::{Judged, lost_frames, tracked_frames};
 use super::timing::{STAGES, StageTime, Timing};
-use crate::evaluation::Evaluation;
+use crate::evaluation::{Corrections, Evaluation};
 use crate::modes::Score;
 use crate::runner::log::Track;
 use crate::scenario::Quality;
@@ -77,6 +77,9 @@ struct EstimatorSummary {
     /// Its fields stand beside these; none without truth.
     #[serde(flatten)]
     evaluation: Option<Evaluation>,
+    /// Of what is fused with wheels, likewise.
+    #[serde(flatten)]
+    corrections: Option<Corrections>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stages: Option<BTreeMap<&'static str, StageTime>>,
 }
@@ -87,6 +90,8 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
     let facts = log.facts.as_ref();
     let cost = facts.map(|facts| facts.cpu_ms_per_frame);
     let estimators = log.tracks.iter().zip(&judged.evaluations);
+    let corrections: BTreeMap<_, _> = log.corrections().into_iter().collect();
+    let corrections = |track: &Track| corrections.get(track.name.as_str()).copied();
     let summary = Summary {
         schema: SCHEMA,
         scenario: &log.recording,
@@ -110,7 +115,7 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
         },
         judged: &judged.track.name,
         estimators: estimators
-            .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation)))
+            .map(|(track, evaluation)| (track.name.as_str(), estimator(track, *evaluation, corrections(track))))
             .collect(),
         sensor: SensorSummary { depth_valid_share: log.depth_valid_share(), energies: log.energies },
         modes: log.mode_score(),
@@ -120,12 +125,13 @@ pub(super) fn to_json(judged: &Judged) -> io::Result<String> {
     Ok(serde_json::to_string_pretty(&summary)? + "\n")
 }
 
-fn estimator(track: &Track, evaluation: Option<Evaluation>) -> EstimatorSummary {
+fn estimator(track: &Track, evaluation: Option<Evaluation>, corrections: Option<Corrections>) -> EstimatorSummary {
     EstimatorSummary {
         frames: track.frames.len(),
         tracked_frames: tracked_frames(track),
         lost_frames: lost_frames(track),
         evaluation,
+        corrections,
         stages: Timing::of(track).map(|timing| STAGES.into_iter().zip(timing.stages).collect()),
     }
 }

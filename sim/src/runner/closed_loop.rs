@@ -17,7 +17,7 @@ use crate::evaluation::{evaluate, position_error};
 use crate::record::writer::{RecordingWriter, WriteError};
 use crate::render::RenderError;
 use crate::robot::VelocityCommand;
-use crate::scenario::expect::{Metrics, OF_THE_SENSOR, judge, metrics, of_the_modes};
+use crate::scenario::expect::{Metrics, OF_THE_SENSOR, judge, metrics, of_corrections, of_the_modes};
 use crate::scenario::{Fault, Scenario};
 use crate::simulator::Simulator;
 use crate::world::World;
@@ -140,6 +140,7 @@ fn metrics_of(log: &RunLog, facts: &RunFacts) -> Metrics {
     let of_the_sensor = [log.depth_valid_share(), rgb, infrared, depth];
     let measured = OF_THE_SENSOR.into_iter().zip(of_the_sensor);
     metrics.extend(measured.filter_map(|(key, value)| Some((key.to_owned(), value?))));
+    metrics.extend(of_corrections(log.corrections()));
     metrics.extend(log.mode_score().iter().flat_map(of_the_modes));
     metrics
 }

@@ -7,6 +7,7 @@ use sunblind_estimator::odometry::FrameReport;
 use sunblind_estimator::{Estimate, Estimator, EstimatorParams, Localizer, ParamError, PoseSource, Rig};
 
 use super::stage_clock::StageClock;
+use super::without_gyro::WithoutGyro;
 
 /// A localiser that is to be driven.
 pub struct Driven {
@@ -65,6 +66,16 @@ impl Driven {
             parameters,
             subject: Subject::Product { estimator, sources, clock },
         })
+    }
+
+    /// The wheels' odometry without the gyro that is fitted, as the track `odometry_no_gyro`: what the gyro is worth, in one
+    /// and the same drive.
+    ///
+    /// # Errors
+    /// As [`Driven::product`].
+    pub fn odometry_without_gyro(params: EstimatorParams, rig: Rig) -> Result<Self, ParamError> {
+        let localizer = Box::new(WithoutGyro::new(params, rig)?);
+        Ok(Self::own("odometry_no_gyro", "wheels alone, without the gyro", localizer))
     }
 
     /// A localiser of the user's own.

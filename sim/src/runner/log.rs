@@ -4,9 +4,9 @@ use nalgebra::{Isometry3, Matrix6};
 use sunblind_estimator::image::{Image, InfraredImage, RgbImage};
 use sunblind_estimator::mode::Energies;
 use sunblind_estimator::odometry::FeatureTrack;
-use sunblind_estimator::{Health, Mode, Timestamp};
+use sunblind_estimator::{Health, Mode, PoseSource, Timestamp};
 
-use crate::evaluation::StampedPose;
+use crate::evaluation::{Corrections, StampedPose};
 use crate::modes::{self, StampedInformation, StampedReport};
 use crate::scenario::Quality;
 use crate::scenario::expect::Judged;
@@ -74,6 +74,20 @@ impl RunLog {
     /// How well the modes were chosen; `None` where nobody chose, or nobody knows.
     pub fn mode_score(&self) -> Option<modes::Score> {
         modes::score(&self.modes, &self.information)
+    }
+
+    /// How far the fused estimates leapt, by their names; of those that have wheels beside them.
+    pub fn corrections(&self) -> Vec<(&str, Corrections)> {
+        let Some(wheels) = self.track(PoseSource::Odometry.name()) else { return Vec::new() };
+        let switches = modes::switches(&self.modes);
+        let fused = [PoseSource::Ekf, PoseSource::Svsf].into_iter().filter_map(|source| self.track(source.name()));
+        let of = |track: &'_ Track| Corrections::of(&track.frames, &wheels.frames, &switches);
+        fused.filter_map(|track| Some((track.name.as_str(), of(track)?))).collect()
+    }
+
+    /// The track of this name.
+    pub fn track(&self, name: &str) -> Option<&Track> {
+        self.tracks.iter().find(|track| track.name == name)
     }
 
     /// The mean share of the depth images' pixels that have a value; `None` when no localiser counted them.

@@ -27,6 +27,7 @@ mod pairing;
 mod replay;
 mod session;
 mod stage_clock;
+mod without_gyro;
 
 pub use closed_loop::{Run, RunError, expected_frames};
 pub use driven::Driven;

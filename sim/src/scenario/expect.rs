@@ -15,13 +15,13 @@ use serde::{Deserialize, Serialize};
 
 use super::Fault;
 use super::error::nearest;
-use crate::evaluation::Evaluation;
+use crate::evaluation::{Corrections, Evaluation};
 use crate::modes::Score;
 
-/// The estimates that a run with wheels gives.
-const ESTIMATES: [&str; 4] = ["odometry", "mvo", "ekf", "svsf"];
+/// The estimates that a run with wheels gives; the last one if the scenario wants it.
+const ESTIMATES: [&str; 5] = ["odometry", "mvo", "ekf", "svsf", "odometry_no_gyro"];
 /// What is measured of each, as in [`Evaluation`].
-const MEASURED: [&str; 10] = [
+const MEASURED: [&str; 11] = [
     "rmse_x_m",
     "rmse_y_m",
     "rmse_theta_deg",
@@ -32,7 +32,13 @@ const MEASURED: [&str; 10] = [
     "rpe_frame_deg",
     "drift_percent",
     "end_error_m",
+    "anees",
 ];
+/// What is measured of the fused ones beside, as in [`Corrections`].
+const OF_THE_FUSED: [&str; 4] =
+    ["max_correction_m", "max_correction_deg", "switch_correction_m", "switch_correction_deg"];
+/// Which these are.
+const FUSED: [&str; 2] = ["ekf", "svsf"];
 /// What is measured of the run, as in `summary.json`.
 const OF_THE_RUN: [&str; 3] = ["path_m", "duration_s", "frames"];
 /// What is measured of the images, as in `summary.json`: the mean share of depth pixels with a value, mean energies.
@@ -92,7 +98,8 @@ pub struct Bound {
 }
 
 impl Bound {
-    fn holds(&self, value: f64) -> bool {
+    /// Whether a value is within.
+    pub fn holds(&self, value: f64) -> bool {
         value.is_finite() && self.min.is_none_or(|min| value >= min) && self.max.is_none_or(|max| value <= max)
     }
 }
@@ -125,14 +132,19 @@ pub fn judge(expectations: &[Expectation], metrics: &Metrics) -> Vec<Judged> {
 
 /// The metrics of some estimates. Those of the whole run are for the caller to add.
 pub fn metrics<'a>(evaluations: impl IntoIterator<Item = (&'a str, &'a Evaluation)>) -> Metrics {
-    let mut metrics = Metrics::new();
-    for (estimate, evaluation) in evaluations {
-        let values = serde_json::to_value(evaluation).expect("an evaluation is plain numbers");
-        // A value that could not be measured is null, and absent here.
-        let number = |key: &str| Some((format!("{estimate}.{key}"), values.get(key)?.as_f64()?));
-        metrics.extend(MEASURED.into_iter().filter_map(number));
-    }
-    metrics
+    evaluations.into_iter().flat_map(|(estimate, evaluation)| numbers(estimate, evaluation, &MEASURED)).collect()
+}
+
+/// The metrics of how the fused estimates were corrected.
+pub fn of_corrections<'a>(corrections: impl IntoIterator<Item = (&'a str, Corrections)>) -> Metrics {
+    corrections.into_iter().flat_map(|(estimate, corrections)| numbers(estimate, &corrections, &OF_THE_FUSED)).collect()
+}
+
+/// Some of a struct's numbers as metrics of an estimate. A value that could not be measured is null, and absent here.
+fn numbers(estimate: &str, measured: &impl Serialize, keys: &[&str]) -> Metrics {
+    let values = serde_json::to_value(measured).expect("measured are plain numbers");
+    let number = |key: &&str| Some((format!("{estimate}.{key}"), values.get(key)?.as_f64()?));
+    keys.iter().filter_map(number).collect()
 }
 
 /// The metrics of the mode switch.
@@ -165,8 +177,12 @@ impl Expectation {
 }
 
 fn check_metric(key: &str, metric: &str) -> Result<(), Fault> {
-    let of_estimates = ESTIMATES.iter().flat_map(|estimate| MEASURED.map(|measured| format!("{estimate}.{measured}")));
-    let known: Vec<String> = of_estimates
+    let of = |estimates: &[&str], measured: &[&str]| -> Vec<String> {
+        estimates.iter().flat_map(|estimate| measured.iter().map(move |key| format!("{estimate}.{key}"))).collect()
+    };
+    let known: Vec<String> = [of(&ESTIMATES, &MEASURED), of(&FUSED, &OF_THE_FUSED)]
+        .concat()
+        .into_iter()
         .chain([&OF_THE_RUN[..], &OF_THE_SENSOR, &OF_THE_MODES].concat().into_iter().map(str::to_owned))
         .collect();
     if known.iter().any(|known| known == metric) {
@@ -236,6 +252,7 @@ mod tests {
             rpe_frame_deg: 8.0,
             drift_percent: f64::NAN,
             end_error_m: 10.0,
+            anees: 3.0,
             path_m: 11.0,
         };
         let metrics = metrics([("svsf", &evaluation)]);
@@ -244,6 +261,24 @@ mod tests {
         let json = serde_json::to_value(judge(&[expectation("svsf.drift_percent", None, None, Some(1.5))], &metrics));
         let expected = serde_json::json!([{ "name": "svsf.drift_percent", "value": null, "bound": { "max": 1.5 }, "held": false }]);
         assert_eq!(json.unwrap(), expected);
+    }
+
+    #[test]
+    fn every_correction_is_measured_of_what_is_fused() {
+        let corrections = Corrections {
+            max_correction_m: 0.03,
+            max_correction_deg: 2.0,
+            switch_correction_m: 0.01,
+            switch_correction_deg: f64::NAN,
+        };
+        let metrics = of_corrections([("ekf", corrections)]);
+        assert_eq!(metrics.len(), OF_THE_FUSED.len() - 1, "all but what is NaN");
+        assert_eq!(metrics["ekf.max_correction_deg"], 2.0);
+        for key in metrics.keys() {
+            expectation(key, None, None, Some(1.0)).check().unwrap();
+        }
+        let of_wheels = expectation("odometry.max_correction_m", None, None, Some(1.0)).check();
+        assert!(of_wheels.unwrap_err().problem.contains("did you mean"));
     }
 
     #[test]

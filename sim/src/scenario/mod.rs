@@ -279,6 +279,9 @@ pub enum StreamMode {
 pub struct Estimator {
     /// On whose pose the robot follows the path.
     pub drives: Drives,
+    /// Whether the wheels' odometry without the gyro is wanted as well, beside the one with it, as the track
+    /// `odometry_no_gyro`.
+    pub odometry_without_gyro: bool,
     /// What differs from the estimator's defaults.
     #[schemars(schema_with = "schema::estimator_params")]
     pub params: EstimatorParams,

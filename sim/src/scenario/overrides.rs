@@ -19,6 +19,11 @@ impl Override {
         Self { key: "seed".into(), value: seed.to_string(), option: "--seed" }
     }
 
+    /// `--set KEY=VALUE`.
+    pub fn set(key: &str, value: &str) -> Self {
+        Self { key: key.into(), value: as_toml(value), option: "--set" }
+    }
+
     /// `--quality HOW`.
     pub fn quality(quality: &str) -> Self {
         Self { key: "kinect.quality".into(), value: as_toml(quality), option: "--quality" }

@@ -128,7 +128,7 @@ fn estimator() -> impl Strategy<Value = Estimator> {
         let mut params = EstimatorParams { variant, ..EstimatorParams::default() };
         params.surf.max_features = max_features;
         params.matching.max_ratio = max_ratio;
-        Estimator { drives, params }
+        Estimator { drives, odometry_without_gyro: paper, params }
     })
 }
 
