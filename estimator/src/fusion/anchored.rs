@@ -6,6 +6,7 @@
 //! relative motion says nothing about where it began. What is left is a filter over `keyframe_from_robot` alone, and a
 //! keyframe whose pose and covariance stand still.
 
+use super::arc::Arc;
 use super::filter::{Gain, Outcome, PoseFilter};
 use super::planar::UncertainPose;
 use super::visual::VisualPose;
@@ -20,12 +21,15 @@ pub(super) struct Anchored<G> {
     filter: PoseFilter<G>,
     /// `keyframe_from_robot`, carried on to now.
     now: UncertainPose,
+    /// σ of how far the wheels' heading has drifted since the keyframe, until the filter's instant and until now; radians.
+    drift: f64,
+    drift_now: f64,
 }
 
 impl<G: Gain> Anchored<G> {
     pub fn new(filter: PoseFilter<G>) -> Self {
         let now = *filter.estimate();
-        Self { keyframe: None, odom_from_keyframe: UncertainPose::default(), filter, now }
+        Self { keyframe: None, odom_from_keyframe: UncertainPose::default(), filter, now, drift: 0.0, drift_now: 0.0 }
     }
 
     /// The pose now.
@@ -34,17 +38,19 @@ impl<G: Gain> Anchored<G> {
     }
 
     /// Carries the pose of now on; the filter stays where its last measurement was.
-    pub fn carry(&mut self, motion: &UncertainPose) {
-        let carried = self.now.compose(motion);
+    pub fn carry(&mut self, arc: &Arc) {
+        let carried = self.now.compose(&arc.motion_after(self.drift_now));
         if carried.is_finite() {
             self.now = carried;
         }
+        self.drift_now += arc.turn_drift;
     }
 
     /// Carries the filter on.
-    pub fn predict(&mut self, motion: &UncertainPose) {
-        self.filter.predict(motion);
-        self.now = *self.filter.estimate();
+    pub fn predict(&mut self, arc: &Arc) {
+        self.filter.predict(&arc.motion_after(self.drift));
+        self.drift += arc.turn_drift;
+        (self.now, self.drift_now) = (*self.filter.estimate(), self.drift);
     }
 
     /// Takes a frame of the filter's instant: the motion since the keyframe, and a new keyframe if it is one. `stays`: the
@@ -58,7 +64,8 @@ impl<G: Gain> Anchored<G> {
             self.keyframe = Some(*frame);
             self.odom_from_keyframe = self.odom_from_keyframe.compose(self.filter.estimate());
             self.filter.restart();
+            self.drift = 0.0;
         }
-        self.now = *self.filter.estimate();
+        (self.now, self.drift_now) = (*self.filter.estimate(), self.drift);
     }
 }

@@ -7,7 +7,7 @@ use super::planar::{PlanarPose, UncertainPose, symmetric};
 /// Below this turn the series take over: their first neglected term, relative, is under 1e-14. Radians.
 const SMALL_TURN: f64 = 1e-3;
 
-/// A drive along an arc: distance, turn, and how uncertain each is. All five numbers grow in proportion along the arc,
+/// A drive along an arc: distance, turn, and how uncertain each is. All its numbers grow in proportion along the arc,
 /// so a part of an arc is an arc.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arc {
@@ -17,8 +17,10 @@ pub struct Arc {
     pub turn: f64,
     /// Variance of the distance, m².
     pub distance_variance: f64,
-    /// Variance of the turn, rad².
+    /// Variance of the turn, rad², but for the drift.
     pub turn_variance: f64,
+    /// σ of a part of the turn's error that goes on into the next arc as it was in this, radians: a gyro's bias.
+    pub turn_drift: f64,
     /// Variance of a slip across the chord, m². The wheels see none (paper A, Eq. 1), the ground allows some.
     pub side_variance: f64,
 }
@@ -31,6 +33,7 @@ impl Arc {
             turn: self.turn * share,
             distance_variance: self.distance_variance * share,
             turn_variance: self.turn_variance * share,
+            turn_drift: self.turn_drift * share,
             side_variance: self.side_variance * share,
         }
     }
@@ -38,6 +41,12 @@ impl Arc {
     /// `start_from_end`. Paper B's Eqs. 16–28, x = (d/α) sin α and y = (d/α)(1 − cos α) with d = (d_R + d_L)/2 and
     /// α = (d_R − d_L)/b, written so that straight (α = 0) and spin (d = 0) are no special cases.
     pub fn motion(&self) -> UncertainPose {
+        self.motion_after(0.0)
+    }
+
+    /// The same where the turns before, since when errors are counted, have drifted by a σ of so many radians already:
+    /// errors of one sign add up, not their squares.
+    pub fn motion_after(&self, drift: f64) -> UncertainPose {
         let (d, a) = (self.distance, self.turn);
         // s = sin α / α, c = (1 − cos α)/α and their derivatives by α.
         let (s, c, ds, dc) = if a.abs() < SMALL_TURN {
@@ -53,7 +62,8 @@ impl Arc {
             c, d * dc, cos_half,
             0.0, 1.0, 0.0,
         );
-        let noise = Vector3::new(self.distance_variance, self.turn_variance, self.side_variance);
+        let turn_variance = self.turn_variance + self.turn_drift * (2.0 * drift + self.turn_drift);
+        let noise = Vector3::new(self.distance_variance, turn_variance, self.side_variance);
         UncertainPose {
             pose: PlanarPose::new(d * s, d * c, a),
             covariance: symmetric(&(jacobian * Matrix3::from_diagonal(&noise) * jacobian.transpose())),
@@ -80,7 +90,7 @@ mod tests {
     }
 
     fn arc(distance: f64, turn: f64) -> Arc {
-        Arc { distance, turn, distance_variance: 4e-4, turn_variance: 9e-4, side_variance: 1e-4 }
+        Arc { distance, turn, distance_variance: 4e-4, turn_variance: 9e-4, turn_drift: 0.0, side_variance: 1e-4 }
     }
 
     proptest! {
@@ -110,6 +120,14 @@ mod tests {
             let (first, second) = (whole.part(share).motion(), whole.part(1.0 - share).motion());
             prop_assert!((first.pose * second.pose).minus(&whole.motion().pose).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn what_drifts_adds_up_whatever_the_number_of_arcs() {
+        let whole = Arc { turn_variance: 0.0, turn_drift: 0.1, ..arc(0.0, 0.5) };
+        let tenth = whole.part(0.1);
+        let sum: f64 = (0..10).map(|i| tenth.motion_after(0.01 * f64::from(i)).covariance[(2, 2)]).sum();
+        assert!((sum - 0.01).abs() < 1e-12 && (whole.motion().covariance[(2, 2)] - 0.01).abs() < 1e-12);
     }
 
     #[test]

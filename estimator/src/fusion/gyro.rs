@@ -41,10 +41,12 @@ impl Default for GyroParams {
 pub(super) struct Turn {
     /// Radians.
     pub angle: f64,
-    /// Of this turn by itself, rad²: what it weighs against another reading of it.
+    /// Of its noise, rad².
     pub variance: f64,
-    /// By how much more it makes the heading's variance grow, rad²: its error has the sign of the turns' before.
-    pub correlated: f64,
+    /// σ of what the bias adds, radians: its sign is that of the turns' before.
+    pub drift: f64,
+    /// σ of what the bias has added since it was learnt, radians.
+    pub drifted: f64,
 }
 
 /// Integrates the rate between wheel readings.
@@ -125,14 +127,13 @@ impl HeadingGyro {
         if self.still_for > self.params.rest && mean_rate.abs() < self.params.max_bias {
             self.learn(mean_rate, covered);
         }
-        // The bias is one number for as long as it is not learnt anew: its share of the heading's σ grows with time,
-        // not with the root of time, and each interval adds the difference of two squares.
         let before = self.unlearnt_for;
         self.unlearnt_for += dt;
         Some(Turn {
             angle: (mean_rate - self.bias) * dt,
-            variance: self.params.noise.powi(2) * dt + self.bias_variance * dt * dt,
-            correlated: self.bias_variance * 2.0 * before * dt,
+            variance: self.params.noise.powi(2) * dt,
+            drift: self.bias_variance.sqrt() * dt,
+            drifted: self.bias_variance.sqrt() * before,
         })
     }
 

@@ -241,9 +241,8 @@ impl Fusion {
     }
 
     fn carry(&mut self, step: &Step) {
-        let motion = step.arc.motion();
-        self.ekf.carry(&motion);
-        self.svsf.carry(&motion);
+        self.ekf.carry(&step.arc);
+        self.svsf.carry(&step.arc);
     }
 
     /// Moves the filters along the steps up to an instant.
@@ -254,9 +253,8 @@ impl Fusion {
                 break;
             }
             let (before, after) = step.split(time.min(step.to));
-            let motion = before.arc.motion();
-            self.ekf.predict(&motion);
-            self.svsf.predict(&motion);
+            self.ekf.predict(&before.arc);
+            self.svsf.predict(&before.arc);
             if after.to > after.from {
                 self.steps.push_front(after);
                 break;

@@ -323,7 +323,7 @@ fn event() -> impl Strategy<Value = Event> {
     let arc = (-2.0..2.0_f64, -3.0..3.0_f64, variance.clone(), variance.clone(), variance);
     prop_oneof![
         arc.prop_map(|(distance, turn, distance_variance, turn_variance, side_variance)| {
-            Event::Drive(Arc { distance, turn, distance_variance, turn_variance, side_variance })
+            Event::Drive(Arc { distance, turn, distance_variance, turn_variance, turn_drift: 0.0, side_variance })
         }),
         (prop::array::uniform3(-9.0..9.0_f64), prop::array::uniform9(-1.0..1.0_f64))
             .prop_map(|(pose, root)| Event::Pose(pose, root)),

@@ -92,7 +92,7 @@ impl WheelOdometryParams {
     /// Any motion that is likely in `seconds` without a reading.
     pub fn unseen(&self, seconds: f64) -> Arc {
         let (shift, turn) = ((self.silent_speed * seconds).powi(2), (self.silent_turn * seconds).powi(2));
-        Arc { distance: 0.0, turn: 0.0, distance_variance: shift, turn_variance: turn, side_variance: shift }
+        Arc { distance_variance: shift, turn_variance: turn, side_variance: shift, ..Arc::default() }
     }
 
     /// An arc driven in `seconds`, with its noise.
@@ -105,6 +105,7 @@ impl WheelOdometryParams {
             turn,
             distance_variance: over(self.distance_per_metre, self.shift_per_radian, self.position_per_second),
             turn_variance: over(self.turn_per_metre, self.turn_per_radian, self.turn_per_second),
+            turn_drift: 0.0,
             side_variance: over(self.side_per_metre, self.shift_per_radian, self.position_per_second),
         }
     }
@@ -201,30 +202,34 @@ impl WheelOdometry {
             return Err(Rejection::ImpossibleSpeed { speed });
         }
         let from = self.reached.replace(time).unwrap_or(last.time);
-        let arc = self.arc(left, right, time, seconds);
-        self.odom_from_robot = self.odom_from_robot.compose(&arc.motion());
+        let (arc, drifted) = self.arc(left, right, time, seconds);
+        self.odom_from_robot = self.odom_from_robot.compose(&arc.motion_after(drifted));
         Ok(Some(Step { from, to: time, arc }))
     }
 
-    /// The arc of two sides that rolled so many metres in so many seconds.
-    fn arc(&mut self, left: f64, right: f64, time: Timestamp, seconds: f64) -> Arc {
+    /// The arc of two sides that rolled so many metres in so many seconds, and σ of how far the heading has drifted before.
+    fn arc(&mut self, left: f64, right: f64, time: Timestamp, seconds: f64) -> (Arc, f64) {
         let turn = (right - left) / self.drive.effective_track;
         let mut arc = self.params.arc((left + right) / 2.0, turn, seconds);
         let moved = left != 0.0 || right != 0.0;
+        let mut drifted = 0.0;
         if let Some(felt) = self.gyro.turn_until(time, seconds, moved) {
             // Two independent readings of one turn: weights go by the inverse of the variances.
-            let total = arc.turn_variance + felt.variance;
+            let variance = felt.variance + felt.drift * felt.drift;
+            let total = arc.turn_variance + variance;
             if total > 0.0 {
                 let weight = arc.turn_variance / total;
                 arc.turn += weight * (felt.angle - arc.turn);
-                arc.turn_variance = weight * felt.variance + weight * weight * felt.correlated;
+                arc.turn_drift = weight * felt.drift;
+                arc.turn_variance = weight * variance - arc.turn_drift * arc.turn_drift;
+                drifted = weight * felt.drifted;
             }
         }
         let unseen = self.params.unseen(std::mem::take(&mut self.unseen));
         arc.distance_variance += unseen.distance_variance;
         arc.turn_variance += unseen.turn_variance;
         arc.side_variance += unseen.side_variance;
-        arc
+        (arc, drifted)
     }
 
     /// Takes the gyro's rate about the robot's z axis, rad/s.
