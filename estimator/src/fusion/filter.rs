@@ -9,6 +9,11 @@ use super::planar::{PlanarPose, UncertainPose, symmetric, wrap_angle};
 pub trait Gain {
     /// The gain for a measurement of the whole pose, H = I.
     fn for_pose(&self, seen: &Innovation<3>) -> Option<Matrix3<f64>>;
+    /// The gain by which the covariance shrinks: of one that depends on the error, what it is of an error of one σ. By the
+    /// error's own it would be luck how sure the filter is.
+    fn expected_for_pose(&self, seen: &Innovation<3>) -> Option<Matrix3<f64>> {
+        self.for_pose(seen)
+    }
     /// The gain for a measurement that is shorter than the state.
     fn for_landmark(&self, seen: &Innovation<2>) -> Option<Matrix3x2<f64>>;
 }
@@ -117,7 +122,9 @@ impl<G: Gain> PoseFilter<G> {
             noise: measured.covariance,
         };
         let repeats = self.surprise.is_none_or(|last| seen.agrees_with(&last));
-        let outcome = self.correct(&mut seen, Some(repeats), G::for_pose);
+        let outcome = self.correct(&mut seen, Some(repeats), |gain, seen| {
+            Some((gain.for_pose(seen)?, gain.expected_for_pose(seen)?))
+        });
         self.surprise = (!self.gate.is_calm()).then_some(seen.error);
         if outcome == Outcome::Fused {
             self.pose_posterior = measured.pose.minus(&self.estimate.pose);
@@ -136,7 +143,7 @@ impl<G: Gain> PoseFilter<G> {
             noise: sighting.covariance,
         };
         // Sightings of different landmarks can't be compared.
-        let outcome = self.correct(&mut seen, None, G::for_landmark);
+        let outcome = self.correct(&mut seen, None, |gain, seen| gain.for_landmark(seen).map(|gain| (gain, gain)));
         if outcome == Outcome::Fused {
             self.landmark_posterior = landmark_error(sighting, landmark, &self.estimate.pose);
         }
@@ -155,7 +162,7 @@ impl<G: Gain> PoseFilter<G> {
         &mut self,
         seen: &mut Innovation<M>,
         repeats: Option<bool>,
-        gain: impl Fn(&G, &Innovation<M>) -> Option<SMatrix<f64, 3, M>>,
+        gains: impl Fn(&G, &Innovation<M>) -> Option<(SMatrix<f64, 3, M>, SMatrix<f64, 3, M>)>,
     ) -> Outcome {
         let Some(squared) = seen.mahalanobis_squared().filter(|squared| squared.is_finite()) else {
             return Outcome::Unusable;
@@ -165,11 +172,11 @@ impl<G: Gain> PoseFilter<G> {
             Verdict::Refuse => return Outcome::Gated,
             Verdict::AdmitDoubting(factor) => seen.predicted *= factor,
         }
-        let Some(gain) = gain(&self.gain, seen) else { return Outcome::Unusable };
+        let Some((gain, expected)) = gains(&self.gain, seen) else { return Outcome::Unusable };
         // The Joseph form holds for any gain and stays positive semi-definite; Eq. 11 is its special case for the
         // Kalman gain. Bucy & Joseph 1968.
-        let rest = Matrix3::identity() - gain * seen.jacobian;
-        let covariance = rest * seen.predicted * rest.transpose() + gain * seen.noise * gain.transpose();
+        let rest = Matrix3::identity() - expected * seen.jacobian;
+        let covariance = rest * seen.predicted * rest.transpose() + expected * seen.noise * expected.transpose();
         let corrected =
             UncertainPose { pose: self.estimate.pose.plus(&(gain * seen.error)), covariance: symmetric(&covariance) };
         if !corrected.is_finite() {

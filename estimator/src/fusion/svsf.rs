@@ -13,24 +13,22 @@ use super::planar::UncertainPose;
 pub struct SvsfParams {
     /// γ, 0–1: the share of the last step's unexplained error that an error may shrink to in this one.
     pub gamma: f64,
-    /// φ, the width of the smoothing boundary layer, in σ of the measurement; wider by as much as the measurement is less
-    /// sure than the prediction. Within it the gain falls with the error, so that noise is not followed; beyond it the
-    /// estimate is brought to the measurement whatever the covariances say.
+    /// φ, the width of the smoothing boundary layer, in σ of the innovation times S/P, so that an error of one σ is followed
+    /// as the Kalman filter follows it (after the optimal layer of Gadsden & Habibi). Within it the
+    /// gain falls with the error, so that noise is not followed; beyond it the estimate is brought to the measurement
+    /// whatever the covariances say.
     pub layer_sigma: f64,
 }
 
 impl Default for SvsfParams {
-    /// Chosen on simulated drives: between 0.3 and 3 σ of layer, and between 0 and 0.4 for γ, the error differs by 3 %;
-    /// what differs is the covariance, which the Joseph form makes larger than the error the wider the layer is (mean
-    /// NEES 2.4 of 3 at 0.3 σ, 1.7 at 1 σ, 0.9 at 3 σ), because it takes a gain that rises with the error for a
-    /// constant one.
+    /// γ as in the paper's source (Habibi 2007): between 0 and 0.4 errors on simulated drives differ by 3 %.
     fn default() -> Self {
         Self { gamma: 0.2, layer_sigma: 1.0 }
     }
 }
 
-/// The narrowest boundary layer, metres or radians: a measurement may claim to be certain.
-const NARROWEST_LAYER: f64 = 1e-9;
+/// The least variance, m² or rad²: what is predicted or measured may claim to be certain.
+const LEAST_VARIANCE: f64 = 1e-18;
 
 /// The gain that switches with the sign of the error and is smoothed near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,22 +46,49 @@ impl Svsf {
 
 impl SvsfGain {
     /// Eqs. 15–16 for one component after the other: (|E| + γ|E_{k|k}|) · sat(E/φ) / E, which is
-    /// (|E| + γ|E_{k|k}|) / max(|E|, φ) and so needs no care at E = 0.
-    fn shares<const M: usize>(&self, seen: &Innovation<M>) -> SVector<f64, M> {
-        let expected = seen.expected();
+    /// (|E| + γ|E_{k|k}|) / max(|E|, φ) and so needs no care at E = 0. `expected`: what it is within the layer for an error of
+    /// one σ.
+    fn shares<const M: usize>(&self, seen: &Innovation<M>, expected: bool) -> SVector<f64, M> {
+        let (predicted, covariance) = (seen.expected(), seen.covariance());
         SVector::from_fn(|i, _| {
             let (error, last) = (seen.error[i].abs(), seen.last_posterior[i].abs());
-            let [noise, predicted] = [seen.noise, expected].map(|covariance| covariance[(i, i)].max(0.0).sqrt());
-            let widened = (noise / predicted.max(NARROWEST_LAYER)).max(1.0);
-            let layer = (self.0.layer_sigma * noise * widened).max(NARROWEST_LAYER);
+            let [predicted, variance] =
+                [predicted, covariance].map(|covariance| covariance[(i, i)].max(LEAST_VARIANCE));
+            let sigma = variance.sqrt();
+            let layer = self.0.layer_sigma * sigma * variance / predicted;
+            if expected && error < layer {
+                return ((sigma + self.0.gamma * last) / layer).min(1.0);
+            }
             (error + self.0.gamma * last) / error.max(layer)
         })
+    }
+
+    /// The gain along the axes on which neither the prediction's errors nor the measurement's go together, or a heading that
+    /// is known would be turned because a position that is not would be moved: with S = P + R = L Lᵀ, those of L⁻¹ P L⁻ᵀ.
+    /// Where both covariances are diagonal they are x, y and heading, as in the paper.
+    fn along_own_axes(&self, seen: &Innovation<3>, expected: bool) -> Option<Matrix3<f64>> {
+        let root = seen.covariance().cholesky()?.l();
+        let inverse = root.try_inverse()?;
+        let axes = (inverse * seen.predicted * inverse.transpose()).symmetric_eigen();
+        let onto = axes.eigenvectors.transpose() * inverse;
+        let along = Innovation {
+            error: onto * seen.error,
+            last_posterior: onto * seen.last_posterior,
+            jacobian: Matrix3::identity(),
+            predicted: Matrix3::from_diagonal(&axes.eigenvalues),
+            noise: Matrix3::from_diagonal(&axes.eigenvalues.map(|predicted| 1.0 - predicted)),
+        };
+        Some(root * axes.eigenvectors * Matrix3::from_diagonal(&self.shares(&along, expected)) * onto)
     }
 }
 
 impl Gain for SvsfGain {
     fn for_pose(&self, seen: &Innovation<3>) -> Option<Matrix3<f64>> {
-        Some(Matrix3::from_diagonal(&self.shares(seen)))
+        self.along_own_axes(seen, false)
+    }
+
+    fn expected_for_pose(&self, seen: &Innovation<3>) -> Option<Matrix3<f64>> {
+        self.along_own_axes(seen, true)
     }
 
     /// With fewer numbers than the state has, H⁺ must say how a share of the error is spread over x, y and heading. As
@@ -72,7 +97,7 @@ impl Gain for SvsfGain {
     fn for_landmark(&self, seen: &Innovation<2>) -> Option<Matrix3x2<f64>> {
         let spread = seen.predicted * seen.jacobian.transpose();
         let inverse = spread * (seen.jacobian * spread).try_inverse()?;
-        Some(inverse * nalgebra::Matrix2::from_diagonal(&self.shares(seen)))
+        Some(inverse * nalgebra::Matrix2::from_diagonal(&self.shares(seen, false)))
     }
 }
 
@@ -88,37 +113,64 @@ mod tests {
 
     #[test]
     fn beyond_the_layer_the_estimate_goes_all_the_way() {
-        let params = SvsfParams { gamma: 0.0, layer_sigma: 2.0 };
+        let params = SvsfParams { gamma: 0.0, layer_sigma: 1.0 };
         let mut svsf = Svsf::new(at(0.0, 0.0, 0.0), params, GateParams::open());
-        // σ is 0.1, so the layer is 0.2: x and heading lie beyond it, the heading the short way round; y half way in.
+        // P and R are 0.01, so the layer is 2 · √0.02 = 0.283: x and heading lie beyond it, the heading the short way round; y
+        // a part of the way in.
         svsf.update_pose(&at(0.5, 0.1, -0.3));
         let estimate = svsf.estimate();
-        assert!((estimate.pose.to_vector() - Vector3::new(0.5, 0.05, -0.3)).norm() < 1e-12);
-        // Joseph with K = 1 leaves R, with K = 1/2 a quarter of P and of R.
-        assert!((estimate.covariance.diagonal() - Vector3::new(0.01, 0.005, 0.01)).norm() < 1e-12);
+        let share = 0.1 / (2.0 * 0.02_f64.sqrt());
+        assert!((estimate.pose.to_vector() - Vector3::new(0.5, 0.1 * share, -0.3)).norm() < 1e-12);
+        // Joseph with K = 1 leaves R; within the layer with that of one σ, here P/S, half of either.
+        let left = 0.005;
+        assert!((estimate.covariance.diagonal() - Vector3::new(0.01, left, 0.01)).norm() < 1e-12);
     }
 
     #[test]
-    fn what_is_less_sure_than_the_prediction_has_a_wider_layer() {
-        let params = SvsfParams { gamma: 0.0, layer_sigma: 2.0 };
+    fn an_error_of_one_sigma_is_followed_as_by_kalmans_gain() {
+        let params = SvsfParams { gamma: 0.0, layer_sigma: 1.0 };
         let mut svsf = Svsf::new(at(0.0, 0.0, 0.0), params, GateParams::open());
-        // σ is 0.5, five times the prediction's: the layer is 2 · 0.5 · 5.
-        let doubtful = UncertainPose { covariance: Matrix3::identity() * 0.25, ..at(1.0, 0.0, 0.0) };
+        // σ is 0.5, five times the prediction's.
+        let doubtful = UncertainPose { covariance: Matrix3::identity() * 0.25, ..at(0.26_f64.sqrt(), 0.0, 0.0) };
         svsf.update_pose(&doubtful);
-        assert!((svsf.estimate().pose.x - 0.2).abs() < 1e-12);
+        assert!((svsf.estimate().pose.x - 0.01 / 0.26 * 0.26_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_position_that_is_moved_turns_no_heading_that_is_known() {
+        // Where turning and going aside look alike, a measurement may be off by both together; the heading is known.
+        let covariance = Matrix3::from_diagonal(&Vector3::new(0.01, 0.01, 1e-6));
+        let start = UncertainPose { covariance, ..UncertainPose::default() };
+        let mut svsf = Svsf::new(start, SvsfParams::default(), GateParams::open());
+        #[rustfmt::skip]
+        let covariance = Matrix3::new(
+            0.01, 0.0, 0.0,
+            0.0, 0.01, 0.0099,
+            0.0, 0.0099, 0.01,
+        );
+        svsf.update_pose(&UncertainPose { covariance, ..at(0.0, 0.1, 0.1) });
+        let PlanarPose { y, heading, .. } = svsf.estimate().pose;
+        // The heading's error is the measurement's, and so is most of y's.
+        assert!(heading.abs() < 0.002 && y.abs() < 0.03, "{y} {heading}");
     }
 
     #[test]
     fn what_was_left_unexplained_is_added_to_the_next_step() {
-        let params = SvsfParams { gamma: 0.4, layer_sigma: 2.0 };
+        let params = SvsfParams { gamma: 0.4, layer_sigma: 0.2 };
         let doubtful = UncertainPose { covariance: Matrix3::identity(), ..UncertainPose::default() };
         let mut svsf = Svsf::new(doubtful, params, GateParams::open());
+        let layer = |svsf: &Svsf| {
+            let (predicted, seen) = (svsf.estimate().covariance[(0, 0)], svsf.estimate().covariance[(0, 0)] + 0.01);
+            0.2 * seen.sqrt() * seen / predicted
+        };
+        let first = 0.1 * 0.1 / layer(&svsf);
         svsf.update_pose(&at(0.1, 0.0, 0.0));
-        assert!((svsf.estimate().pose.x - 0.05).abs() < 1e-12);
+        assert!((svsf.estimate().pose.x - first).abs() < 1e-12);
         svsf.predict(&doubtful);
-        // E = 0.05 again and E_{k|k} = 0.05: K = (0.05 + 0.4 · 0.05) / 0.2.
+        // E is what was left, E_{k|k}, again: K = (E + 0.4 E) / φ.
+        let (left, width) = (0.1 - first, layer(&svsf));
         svsf.update_pose(&at(0.1, 0.0, 0.0));
-        assert!((svsf.estimate().pose.x - (0.05 + 0.35 * 0.05)).abs() < 1e-12);
+        assert!((svsf.estimate().pose.x - (first + left * 1.4 * left / width)).abs() < 1e-12);
         // Beyond the layer the posterior error is γ times the last, on the other side (the stability of Eq. 15).
         let last = 0.1 - svsf.estimate().pose.x;
         svsf.update_pose(&at(1.0, 0.0, 0.0));
