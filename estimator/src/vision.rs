@@ -7,13 +7,14 @@ use nalgebra::{Isometry3, Matrix6};
 
 use crate::camera::Rig;
 use crate::estimator::{Stage, StageObserver};
-use crate::fusion::{PlanarPose, VisualOnPlane, VisualPose};
+use crate::fusion::{PlanarPose, TurnDoubt, VisualOnPlane, VisualPose};
 use crate::geometry::adjoint;
 use crate::image::{DepthImage, Image, InfraredImage, RgbImage};
 use crate::measurement::{Estimate, Health, Mode, Rejection};
 use crate::motion::MotionFailure;
 use crate::odometry::{
-    ByBearing, CameraPose, Frame, FrameBuilder, FrameReport, FrameToFrame, Keyframes, NightFrameBuilder, Tracking,
+    ByBearing, CameraByWheels, CameraPose, Frame, FrameBuilder, FrameReport, FrameToFrame, Keyframes,
+    NightFrameBuilder, Tracking,
 };
 use crate::params::{EstimatorParams, Variant};
 use crate::time::Timestamp;
@@ -110,7 +111,7 @@ pub(crate) struct Vision {
     /// Of a robot on wheels.
     on_plane: Option<VisualOnPlane>,
     /// What the wheels have said lately.
-    wheels: VecDeque<(Timestamp, PlanarPose)>,
+    wheels: VecDeque<(Timestamp, PlanarPose, TurnDoubt)>,
     /// Where the wheels had the camera when that pose was found.
     found_at: Option<Isometry3<f64>>,
     /// What the odometry's keyframes are of.
@@ -190,23 +191,26 @@ impl Vision {
         self.depth.take(time, image)
     }
 
-    /// Takes where the wheels alone say that the robot is.
-    pub fn take_wheels(&mut self, time: Timestamp, odom_from_robot: PlanarPose) {
-        self.wheels.push_back((time, odom_from_robot));
-        while self.wheels.front().is_some_and(|(old, _)| time.since(*old) > WHEELS_KEPT) {
+    /// Takes where the wheels alone say that the robot is, and how far its heading may have strayed by then.
+    pub fn take_wheels(&mut self, time: Timestamp, odom_from_robot: PlanarPose, turn_doubt: TurnDoubt) {
+        self.wheels.push_back((time, odom_from_robot, turn_doubt));
+        while self.wheels.front().is_some_and(|(old, ..)| time.since(*old) > WHEELS_KEPT) {
             self.wheels.pop_front();
         }
     }
 
     /// Where the wheels say that the colour camera was at an instant, going on as before for a little while.
-    fn camera_by_wheels(&self, time: Timestamp) -> Option<Isometry3<f64>> {
-        let after = self.wheels.partition_point(|(read, _)| *read < time).clamp(1, self.wheels.len().max(2) - 1);
-        let ((from, start), (to, end)) = (self.wheels.get(after - 1)?, self.wheels.get(after)?);
+    fn camera_by_wheels(&self, time: Timestamp) -> Option<CameraByWheels> {
+        let after = self.wheels.partition_point(|(read, ..)| *read < time).clamp(1, self.wheels.len().max(2) - 1);
+        let ((from, start, doubt), (to, end, later)) = (self.wheels.get(after - 1)?, self.wheels.get(after)?);
         let share = time.since(*from) / to.since(*from);
         let step = (start.inverse() * *end).to_vector() * share;
         let is_near = time.since(*to) < MAX_EXTRAPOLATION && share > -1.0;
         let odom_from_robot = *start * PlanarPose::new(step.x, step.y, step.z);
-        is_near.then(|| odom_from_robot.to_isometry() * self.rig.robot_from_colour)
+        is_near.then(|| CameraByWheels {
+            odom_from_camera: odom_from_robot.to_isometry() * self.rig.robot_from_colour,
+            turn_doubt: doubt.towards(later, share),
+        })
     }
 
     /// Works on the newest instant once the images that `mode` rests on are all there: the pose, which is `tracked` if
@@ -267,8 +271,8 @@ impl Vision {
             }
             infrared = (behind.abs() <= MAX_STEREO_GAP).then(|| Arc::clone(image));
         }
-        let odom_from_camera = self.camera_by_wheels(time)?;
-        let tracked = self.by_bearing.track(&rgb, infrared.as_deref(), &odom_from_camera, &mut self.observer);
+        let by_wheels = self.camera_by_wheels(time)?;
+        let tracked = self.by_bearing.track(&rgb, infrared.as_deref(), &by_wheels, &mut self.observer);
         (self.observer)(Stage::Done);
         let Some((features, tracking)) = tracked else {
             self.put_down(time, 0, Tracking::none());
@@ -279,7 +283,7 @@ impl Vision {
 
     fn follow(&mut self, time: Timestamp, frame: Frame) -> (VisualPose, Option<MotionFailure>) {
         let features = frame.features.len();
-        let at = self.camera_by_wheels(time);
+        let at = self.camera_by_wheels(time).map(|by_wheels| by_wheels.odom_from_camera);
         if let (Some(found_at), Some(at)) = (self.found_at, at) {
             self.odometry.expect(found_at.inverse() * at);
         }

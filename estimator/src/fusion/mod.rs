@@ -30,7 +30,7 @@ pub use planar::{PlanarPose, UncertainPose, wrap_angle};
 pub use svsf::{Svsf, SvsfGain, SvsfParams};
 pub(crate) use visual::VisualOnPlane;
 pub use visual::VisualPose;
-pub use wheel_odometry::{Drive, Step, WheelOdometry, WheelOdometryParams};
+pub use wheel_odometry::{Drive, Step, TurnDoubt, WheelOdometry, WheelOdometryParams};
 
 /// Parameters of the fusion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -140,6 +140,11 @@ impl Fusion {
     /// `odom_from_robot` by the wheels alone.
     pub fn odometry(&self) -> UncertainPose {
         *self.wheels.odom_from_robot()
+    }
+
+    /// How far the heading by the wheels alone may have strayed since the beginning.
+    pub fn turn_doubt(&self) -> TurnDoubt {
+        self.wheels.turn_doubt()
     }
 
     /// `odom_from_robot` by the extended Kalman filter.

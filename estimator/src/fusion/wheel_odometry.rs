@@ -131,6 +131,28 @@ impl Step {
     }
 }
 
+/// How far the heading may have strayed since some instant; of two of them, what lies between is what they differ by.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TurnDoubt {
+    /// Variance of what differs from step to step, rad².
+    pub variance: f64,
+    /// σ of what goes on in one direction, a gyro's bias; rad.
+    pub drift: f64,
+}
+
+impl TurnDoubt {
+    /// σ of a turn that ended at `self` and began at `start`, radians.
+    pub fn sigma_since(&self, start: &Self) -> f64 {
+        (self.variance - start.variance).max(0.0).sqrt().hypot(self.drift - start.drift)
+    }
+
+    /// Some of the way (0–1) from here to another one.
+    pub fn towards(&self, to: &Self, share: f64) -> Self {
+        let between = |from: f64, to: f64| from + share * (to - from);
+        Self { variance: between(self.variance, to.variance), drift: between(self.drift, to.drift) }
+    }
+}
+
 /// Encoder counts and when they were read.
 #[derive(Clone, Copy, Debug)]
 struct Reading {
@@ -150,6 +172,7 @@ pub struct WheelOdometry {
     reached: Option<Timestamp>,
     unseen: f64,
     odom_from_robot: UncertainPose,
+    turn_doubt: TurnDoubt,
 }
 
 impl WheelOdometry {
@@ -163,6 +186,7 @@ impl WheelOdometry {
             reached: None,
             unseen: 0.0,
             odom_from_robot: UncertainPose::default(),
+            turn_doubt: TurnDoubt::default(),
         }
     }
 
@@ -174,6 +198,11 @@ impl WheelOdometry {
     /// Where the wheels alone have brought the robot, from where it was at the first counts.
     pub fn odom_from_robot(&self) -> &UncertainPose {
         &self.odom_from_robot
+    }
+
+    /// How far the heading may have strayed since the first counts.
+    pub fn turn_doubt(&self) -> TurnDoubt {
+        self.turn_doubt
     }
 
     /// Takes the counts of both sides since the encoders were reset; gives the step since the reading before, none for
@@ -204,6 +233,8 @@ impl WheelOdometry {
         let from = self.reached.replace(time).unwrap_or(last.time);
         let (arc, drifted) = self.arc(left, right, time, seconds);
         self.odom_from_robot = self.odom_from_robot.compose(&arc.motion_after(drifted));
+        self.turn_doubt.variance += arc.turn_variance;
+        self.turn_doubt.drift += arc.turn_drift;
         Ok(Some(Step { from, to: time, arc }))
     }
 

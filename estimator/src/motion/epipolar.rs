@@ -34,6 +34,19 @@ impl RayPair {
     }
 }
 
+/// What wheels say of a motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Rolled {
+    /// The reference camera's frame → the camera's.
+    pub camera_from_reference: Isometry3<f64>,
+    /// σ of how far from there the camera may be on either side, metres.
+    pub stray: f64,
+    /// What the robot turns about, in the camera's frame; length 1.
+    pub down: Vector3<f64>,
+    /// σ of the turn, radians.
+    pub turn: f64,
+}
+
 /// A motion whose length was given.
 #[derive(Clone, Debug)]
 pub struct EpipolarMotion {
@@ -73,23 +86,22 @@ const NEAREST: f64 = 0.3;
 const UNKNOWN: f64 = 3.0;
 
 /// Minimises the pairs' distances from their epipolar lines (Sampson's approximation; Hartley & Zisserman 2004, §11.4.3)
-/// from `start`, whose length stays, and from whose way the camera strays by `stray` metres (σ): going aside and turning
-/// look much alike.
+/// from what the wheels say, whose length stays. Going aside and turning look much alike: what the wheels know of either
+/// says which it was. Of the turn, that is not in the covariance, so that whoever knows it as well does not count it twice.
 ///
 /// # Errors
 /// [`MotionFailure::TooFewInliers`] or [`MotionFailure::DegenerateGeometry`].
 pub fn epipolar_motion(
     pairs: &[RayPair],
-    start: &Isometry3<f64>,
-    stray: f64,
+    rolled: &Rolled,
     min_inliers: usize,
 ) -> Result<EpipolarMotion, MotionFailure> {
+    let start = &rolled.camera_from_reference;
     let length = start.translation.vector.norm();
-    let way = Way { camera_at: start.inverse().translation.vector, information: stray.powi(-2) };
     let motion = annealed(
         start,
         ITERATIONS,
-        |motion, cauchy| normal(pairs, &way, motion, cauchy),
+        |motion, cauchy| normal(pairs, rolled, motion, cauchy),
         |motion| motion.translation.vector = motion.translation.vector.normalize() * length,
     );
     let inliers: Vec<bool> = pairs
@@ -105,7 +117,7 @@ pub fn epipolar_motion(
     }
     let agreeing: Vec<RayPair> =
         pairs.iter().zip(&inliers).filter(|(_, inlier)| **inlier).map(|(pair, _)| *pair).collect();
-    let (hessian, _) = normal(&agreeing, &way, &motion, f64::INFINITY);
+    let (hessian, _) = normal(&agreeing, &Rolled { turn: f64::INFINITY, ..*rolled }, &motion, f64::INFINITY);
     let Some(cholesky) = hessian.cholesky() else {
         return Err(MotionFailure::DegenerateGeometry { sigma: f64::INFINITY });
     };
@@ -116,14 +128,6 @@ pub fn epipolar_motion(
     let mut corner = covariance.fixed_view_mut::<3, 3>(0, 0);
     corner += along * along.transpose() * (UNKNOWN * UNKNOWN);
     Ok(EpipolarMotion { camera_from_reference: motion, covariance, inliers })
-}
-
-/// The way that was to be expected.
-struct Way {
-    /// In the reference camera's frame, metres.
-    camera_at: Vector3<f64>,
-    /// 1/σ², 1/m².
-    information: f64,
 }
 
 /// A pair under a motion.
@@ -154,7 +158,7 @@ impl Line {
 }
 
 /// Normal equations; the length of the way is held.
-fn normal(pairs: &[RayPair], way: &Way, motion: &Isometry3<f64>, cauchy: f64) -> (Matrix6<f64>, Vector6<f64>) {
+fn normal(pairs: &[RayPair], rolled: &Rolled, motion: &Isometry3<f64>, cauchy: f64) -> (Matrix6<f64>, Vector6<f64>) {
     let (mut hessian, mut gradient): (Matrix6<f64>, Vector6<f64>) = (SMatrix::zeros(), SMatrix::zeros());
     for pair in pairs {
         if !pair.may_be_seen(motion, 2.0 * cauchy) {
@@ -166,12 +170,18 @@ fn normal(pairs: &[RayPair], way: &Way, motion: &Isometry3<f64>, cauchy: f64) ->
         gradient.axpy(weight * distance, &row, 1.0);
     }
     // The camera lies at −Rᵀt in the reference's frame, where ρ moves it by −Rᵀρ.
-    let strayed = motion.inverse().translation.vector - way.camera_at;
+    let expected = &rolled.camera_from_reference;
+    let strayed = motion.inverse().translation.vector - expected.inverse().translation.vector;
+    let information = rolled.stray.powi(-2);
     for axis in 0..3 {
-        hessian[(axis, axis)] += way.information;
+        hessian[(axis, axis)] += information;
     }
     let mut shift = gradient.fixed_rows_mut::<3>(0);
-    shift -= motion.rotation * strayed * way.information;
+    shift -= motion.rotation * strayed * information;
+    let turned = rolled.down.dot(&(motion.rotation * expected.rotation.inverse()).scaled_axis());
+    let row = Vector6::new(0.0, 0.0, 0.0, rolled.down.x, rolled.down.y, rolled.down.z) / rolled.turn;
+    hessian.ger(1.0, &row, &row, 1.0);
+    gradient.axpy(turned / rolled.turn, &row, 1.0);
     // The motion stays as long as it was: a turn φ swings it, but that is no change of length.
     let along = motion.translation.vector.normalize();
     let along = Vector6::new(along.x, along.y, along.z, 0.0, 0.0, 0.0);
@@ -213,17 +223,17 @@ mod tests {
     }
 
     /// What wheels would say: the length right, the rest off by half a degree.
-    fn by_wheels() -> Isometry3<f64> {
+    fn by_wheels() -> Rolled {
         let mut start = exp_se3(&Vector6::new(0.003, 0.0, 0.0, 0.0, 0.009, 0.0)) * truth();
         start.translation.vector *= truth().translation.vector.norm() / start.translation.vector.norm();
-        start
+        Rolled { camera_from_reference: start, stray: 0.006, down: Vector3::y(), turn: 0.1 }
     }
 
     #[test]
     fn turn_and_direction_are_found_among_mismatches() {
         let (mut sum, runs) = (0.0, 50);
         for seed in 0..runs {
-            let motion = epipolar_motion(&pairs(300, 30, seed), &by_wheels(), 0.006, 30).unwrap();
+            let motion = epipolar_motion(&pairs(300, 30, seed), &by_wheels(), 30).unwrap();
             let error = crate::geometry::log_se3(&(motion.camera_from_reference * truth().inverse()));
             assert!(error.fixed_rows::<3>(3).norm() < 0.003, "{error}");
             assert!(error.fixed_rows::<3>(0).norm() < 0.02, "{error}");
@@ -237,7 +247,7 @@ mod tests {
 
     #[test]
     fn nothing_but_mismatches_is_said_so() {
-        let found = epipolar_motion(&pairs(100, 100, 1), &by_wheels(), 0.03, 50);
+        let found = epipolar_motion(&pairs(100, 100, 1), &by_wheels(), 50);
         assert!(matches!(found, Err(MotionFailure::TooFewInliers { .. })), "{found:?}");
     }
 }

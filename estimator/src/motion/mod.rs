@@ -19,7 +19,7 @@ use thiserror::Error;
 use crate::structure::Landmark;
 
 pub use dense::{DenseMotion, align, misfit};
-pub use epipolar::{EpipolarMotion, RayPair, epipolar_motion};
+pub use epipolar::{EpipolarMotion, RayPair, Rolled, epipolar_motion};
 pub use ground::{GroundPlane, Scale, scale_over_ground};
 pub use inverse_depth::{DepthPair, Expected, inverse_depth_motion};
 pub use paper::{PaperMotionParams, icp_surf};

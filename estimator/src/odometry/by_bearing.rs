@@ -9,11 +9,12 @@ use crate::camera::{CameraModel, Rig};
 use crate::estimator::Stage;
 use crate::features::matching::match_features;
 use crate::features::surf::{Feature, Surf};
+use crate::fusion::TurnDoubt;
 use crate::geometry::adjoint;
 use crate::image::{GrayImage, InfraredImage, RgbImage};
 use crate::motion::{
-    DepthPair, EpipolarMotion, Expected, GroundPlane, MotionFailure, RayPair, epipolar_motion, inverse_depth_motion,
-    scale_over_ground,
+    DepthPair, EpipolarMotion, Expected, GroundPlane, MotionFailure, RayPair, Rolled, epipolar_motion,
+    inverse_depth_motion, scale_over_ground,
 };
 use crate::params::EstimatorParams;
 use crate::structure::{InverseDepth, Stereo};
@@ -40,6 +41,9 @@ const STRAY_TURNING: f64 = 0.05;
 /// aside and turning look alike. Of simulated pairs, one in ten mismatched, the normalised error squared is 12 where five
 /// degrees of freedom would make it 5.
 const SHARED: f64 = 2.5;
+
+/// The least σ of a turn by the wheels, radians: they may claim to be certain.
+const LEAST_TURN: f64 = 1e-5;
 
 /// Fewest pairs with a depth by stereo that say how far; with fewer the wheels do.
 const MIN_MEASURED: usize = 30;
@@ -78,8 +82,11 @@ impl Default for OutdoorParams {
 /// The ground that the robot's wheels stand on, as the colour camera has it; `None` for a camera on the ground or below.
 fn ground(rig: &Rig) -> Option<GroundPlane> {
     let height = rig.robot_from_colour.translation.z;
-    let down = rig.robot_from_colour.rotation.inverse() * -Vector3::z();
-    (height > 0.0).then_some(GroundPlane { down, height })
+    (height > 0.0).then_some(GroundPlane { down: down(rig), height })
+}
+
+fn down(rig: &Rig) -> Vector3<f64> {
+    rig.robot_from_colour.rotation.inverse() * -Vector3::z()
 }
 
 /// σ of how far from where the wheels say a camera may be on either side, metres.
@@ -88,13 +95,21 @@ fn stray(camera_from_reference: &Isometry3<f64>) -> f64 {
     (STRAY * way).hypot(STRAY_TURNING * turn.sqrt())
 }
 
+/// Where the wheels have a camera.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraByWheels {
+    /// Camera frame → where the robot was when its wheels were first read.
+    pub odom_from_camera: Isometry3<f64>,
+    /// How far the heading may have strayed by now.
+    pub turn_doubt: TurnDoubt,
+}
+
 struct Keyframe {
     features: Vec<Feature>,
     /// By stereo, of each feature; empty without.
     inverse_depths: Vec<Option<InverseDepth>>,
     pose: CameraPose,
-    /// By the wheels.
-    odom_from_camera: Isometry3<f64>,
+    by_wheels: CameraByWheels,
 }
 
 /// Holds each frame against the newest keyframe.
@@ -103,6 +118,8 @@ pub struct ByBearing {
     camera: CameraModel,
     surf: Surf,
     stereo: Option<Stereo>,
+    /// From the camera straight down, in its frame.
+    down: Vector3<f64>,
     /// Where the camera is above the ground.
     ground: Option<GroundPlane>,
     keyframe: Option<Keyframe>,
@@ -121,6 +138,7 @@ impl ByBearing {
             camera: rig.colour,
             surf,
             stereo,
+            down: down(rig),
             ground: ground(rig),
             keyframe: None,
             slip: WheelSlip::default(),
@@ -138,16 +156,17 @@ impl ByBearing {
         (self.keyframe, self.slip, self.last) = (None, WheelSlip::default(), pose);
     }
 
-    /// Follows one frame that the wheels say was taken at `odom_from_camera`: how many features it has, and its pose.
-    /// `None` while the way is too short to tell. `infrared` is of the same instant.
+    /// Follows one frame that the wheels say was taken at `by_wheels`: how many features it has, and its pose. `None` while the way is too short to tell. `infrared` is of the same instant.
     pub fn track(
         &mut self,
         rgb: &RgbImage,
         infrared: Option<&InfraredImage>,
-        odom_from_camera: &Isometry3<f64>,
+        by_wheels: &CameraByWheels,
         stage: &mut dyn FnMut(Stage),
     ) -> Option<(usize, Tracking)> {
-        let start = self.keyframe.as_ref().map(|keyframe| odom_from_camera.inverse() * keyframe.odom_from_camera);
+        let odom_from_camera = &by_wheels.odom_from_camera;
+        let start =
+            self.keyframe.as_ref().map(|keyframe| odom_from_camera.inverse() * keyframe.by_wheels.odom_from_camera);
         if start.is_some_and(|start| start.translation.vector.norm() < LEAST_WAY) {
             return None;
         }
@@ -156,7 +175,7 @@ impl ByBearing {
         let features = self.surf.detect(&luma);
         let found = features.len();
         let (Some(keyframe), Some(start)) = (&self.keyframe, start) else {
-            self.remember(features, &luma, infrared, odom_from_camera);
+            self.remember(features, &luma, infrared, by_wheels);
             return Some((found, self.failed(MotionFailure::NoReference, Vec::new(), true)));
         };
         stage(Stage::Matching);
@@ -179,13 +198,14 @@ impl ByBearing {
         stage(Stage::Motion);
         let inverse_depths: Vec<Option<InverseDepth>> =
             matches.iter().map(|found| *keyframe.inverse_depths.get(found.to)?).collect();
-        let (motion, slip) = match self.motion(&pairs, &inverse_depths, &start) {
+        let turn = by_wheels.turn_doubt.sigma_since(&keyframe.by_wheels.turn_doubt);
+        let (motion, slip) = match self.motion(&pairs, &inverse_depths, &start, turn) {
             Ok(found) => found,
             Err(failure) => {
                 // Too far gone to be recognised: the wheels alone have been right up to here.
                 let is_far = start.translation.vector.norm() > MAX_WAY;
                 if is_far {
-                    self.remember(features, &luma, infrared, odom_from_camera);
+                    self.remember(features, &luma, infrared, by_wheels);
                 }
                 return Some((found, self.failed(failure, tracks, is_far)));
             }
@@ -205,22 +225,23 @@ impl ByBearing {
         self.last = CameraPose { start_from_camera, covariance };
         if is_keyframe {
             self.slip = slip;
-            self.remember(features, &luma, infrared, odom_from_camera);
+            self.remember(features, &luma, infrared, by_wheels);
         }
         Some((found, Tracking { pose: self.last.clone(), failure: None, tracks, keyframe: is_keyframe }))
     }
 
-    /// Near where the wheels say, `start`; with its length, unless stereo or the ground knows better. And what is then known
-    /// of the wheels' slip.
+    /// Near where the wheels say, `start`, their turn off by a σ of `turn`; with its length, unless stereo or the ground knows
+    /// better. And what is then known of the wheels' slip.
     fn motion(
         &self,
         pairs: &[RayPair],
         inverse_depths: &[Option<InverseDepth>],
         start: &Isometry3<f64>,
+        turn: f64,
     ) -> Result<(EpipolarMotion, WheelSlip), MotionFailure> {
         let measured = inverse_depths.iter().flatten().count();
         let Some(stereo) = self.stereo.as_ref().filter(|_| measured >= MIN_MEASURED) else {
-            let motion = epipolar_motion(pairs, start, stray(start), MIN_INLIERS)?.shared_by(SHARED);
+            let motion = epipolar_motion(pairs, &self.by_wheels(start, turn), MIN_INLIERS)?.shared_by(SHARED);
             let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
             let look =
                 self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
@@ -240,20 +261,24 @@ impl ByBearing {
         Ok((motion.shared_by(SHARED), self.slip))
     }
 
+    fn by_wheels(&self, start: &Isometry3<f64>, turn: f64) -> Rolled {
+        Rolled { camera_from_reference: *start, stray: stray(start), down: self.down, turn: turn.max(LEAST_TURN) }
+    }
+
     fn remember(
         &mut self,
         features: Vec<Feature>,
         luma: &GrayImage,
         infrared: Option<&InfraredImage>,
-        odom_from_camera: &Isometry3<f64>,
+        by_wheels: &CameraByWheels,
     ) {
         let places: Vec<(f32, f32)> = features.iter().map(|feature| (feature.x, feature.y)).collect();
         let inverse_depths = match (&mut self.stereo, infrared) {
             (Some(stereo), Some(infrared)) => stereo.inverse_depths(&places, luma, infrared),
             _ => Vec::new(),
         };
-        let (pose, odom_from_camera) = (self.last.clone(), *odom_from_camera);
-        self.keyframe = Some(Keyframe { features, inverse_depths, pose, odom_from_camera });
+        let (pose, by_wheels) = (self.last.clone(), *by_wheels);
+        self.keyframe = Some(Keyframe { features, inverse_depths, pose, by_wheels });
     }
 
     fn failed(&self, failure: MotionFailure, tracks: Vec<FeatureTrack>, keyframe: bool) -> Tracking {
@@ -280,6 +305,12 @@ mod tests {
         DarkRoom { walls, ambient: 0.0 }
     }
 
+    /// By wheels whose turns are worth nothing.
+    fn rolled(odom_from_camera: Isometry3<f64>) -> CameraByWheels {
+        let turn_doubt = TurnDoubt { variance: odom_from_camera.translation.vector.norm(), drift: 0.0 };
+        CameraByWheels { odom_from_camera, turn_doubt }
+    }
+
     /// A colour image of an albedo.
     fn grey(albedo: &Image<f32>) -> RgbImage {
         let pixels = albedo.pixels().iter().map(|&share| [(255.0 * share) as u8; 3]).collect();
@@ -296,7 +327,7 @@ mod tests {
             // Half a degree each step, of which the wheels miss a tenth; they roll 5 % too far.
             let (way, turn) = (0.03 * f64::from(step), 0.0087 * f64::from(step));
             let albedo = room.seen_from(&at(way, turn), u64::from(step as u32)).albedo;
-            let found = odometry.track(&grey(&albedo), None, &at(1.05 * way, 0.9 * turn), &mut |_| {});
+            let found = odometry.track(&grey(&albedo), None, &rolled(at(1.05 * way, 0.9 * turn)), &mut |_| {});
             last = found.map(|(_, tracking)| (tracking, at(1.05 * way, turn))).or(last);
         }
         let (Tracking { pose, failure, .. }, expected) = last.unwrap();
@@ -326,7 +357,7 @@ mod tests {
             let reversed = infrared.pixels().iter().map(|&share| (700.0 - 500.0 * share) as u16).collect();
             let infrared = Image::from_pixels(640, 480, reversed).unwrap();
             // The wheels spin: they claim a sixth more than there was.
-            let found = odometry.track(&rgb, Some(&infrared), &at(1.17 * way), &mut |_| {});
+            let found = odometry.track(&rgb, Some(&infrared), &rolled(at(1.17 * way)), &mut |_| {});
             last = found.map(|(_, tracking)| (tracking, at(way))).or(last);
         }
         let (Tracking { pose, failure, .. }, expected) = last.unwrap();
@@ -341,7 +372,7 @@ mod tests {
     fn standing_still_says_nothing() {
         let mut odometry = ByBearing::new(&EstimatorParams::default(), &dark_room::rig());
         let rgb = Image::filled(640, 480, [90; 3]);
-        assert!(odometry.track(&rgb, None, &Isometry3::identity(), &mut |_| {}).is_some(), "the keyframe");
-        assert!(odometry.track(&rgb, None, &Isometry3::identity(), &mut |_| {}).is_none());
+        assert!(odometry.track(&rgb, None, &rolled(Isometry3::identity()), &mut |_| {}).is_some(), "the keyframe");
+        assert!(odometry.track(&rgb, None, &rolled(Isometry3::identity()), &mut |_| {}).is_none());
     }
 }

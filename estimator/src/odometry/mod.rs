@@ -17,7 +17,7 @@ use crate::measurement::Mode;
 use crate::motion::MotionFailure;
 use crate::time::Timestamp;
 
-pub use by_bearing::{ByBearing, OutdoorMethod, OutdoorParams};
+pub use by_bearing::{ByBearing, CameraByWheels, OutdoorMethod, OutdoorParams};
 pub use frame::{Frame, FrameBuilder, FrameView};
 pub use frame_to_frame::FrameToFrame;
 pub use keyframes::{KeyframeParams, Keyframes};
