@@ -173,7 +173,7 @@ impl Localizer for Estimator {
                 self.modes.pass(time);
                 let taken = self.fusion.as_mut().map(|fusion| fusion.handle_ticks(time, left, right));
                 if let (Some(Ok(())), Some(fusion)) = (&taken, &self.fusion) {
-                    self.vision.take_wheels(time, fusion.odometry().pose, fusion.turn_doubt());
+                    self.vision.take_wheels(time, fusion.dead_reckoning(), fusion.turn_doubt());
                 }
                 disposition(taken)
             }

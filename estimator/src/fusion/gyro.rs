@@ -1,7 +1,9 @@
-//! The turn since the last wheel reading as a gyro feels it, and the gyro's bias while the wheels stand still.
+//! The turn since the last wheel reading as a gyro feels it, and the gyro's bias, learnt while the wheels stand still or
+//! from what was seen.
 
 use serde::{Deserialize, Serialize};
 
+use super::sighted_turn::Lesson;
 use crate::time::Timestamp;
 
 /// Parameters of the gyro. The defaults describe a MEMS gyro of the P3-AT's time (ADXRS300 class: 0.1 °/s/√Hz).
@@ -144,6 +146,14 @@ impl HeadingGyro {
         self.bias += gain * (rate - self.bias);
         self.bias_variance *= 1.0 - gain;
         self.unlearnt_for = 0.0;
+    }
+
+    /// The same from turns that were seen.
+    pub fn learn_by_sight(&mut self, lesson: &Lesson) {
+        let sigma = self.bias_variance.sqrt();
+        let total = lesson.drift * lesson.drift + lesson.variance;
+        self.bias += sigma * lesson.drift / total * lesson.error;
+        self.bias_variance *= lesson.variance / total;
     }
 }
 

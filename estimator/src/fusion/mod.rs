@@ -1,6 +1,6 @@
 //! Wheels and visual odometry together (paper A, §5): `wheel_odometry` (with `arc` and `gyro`) carries the pose on,
 //! the motion since a keyframe (`visual`) corrects it, in an `ekf` and in an `svsf` side by side, which share `filter`
-//! and `gate` and stand on the keyframe's pose (`anchored`).
+//! and `gate` and stand on the keyframe's pose (`anchored`). What was seen of a turn teaches the gyro its bias (`sighted_turn`).
 
 mod anchored;
 mod arc;
@@ -9,6 +9,7 @@ mod filter;
 mod gate;
 mod gyro;
 mod planar;
+mod sighted_turn;
 mod svsf;
 mod visual;
 mod wheel_odometry;
@@ -20,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use crate::measurement::Rejection;
 use crate::time::Timestamp;
 use anchored::Anchored;
+use sighted_turn::SightedTurn;
 
 pub use arc::Arc;
 pub use ekf::{Ekf, KalmanGain};
@@ -89,7 +91,11 @@ pub enum VisualMeasurement {
 #[derive(Clone, Debug)]
 pub struct Fusion {
     params: FusionParams,
+    /// The wheels alone.
+    odometry: WheelOdometry,
+    /// What carries the filters on: the same, but that its gyro's bias is learnt from what is seen, too.
     wheels: WheelOdometry,
+    sighted_turn: SightedTurn,
     ekf: Anchored<KalmanGain>,
     svsf: Anchored<SvsfGain>,
     /// Where the filters stand; `None` before anything was measured.
@@ -108,9 +114,12 @@ impl Fusion {
     /// At rest at the origin.
     pub fn new(params: FusionParams, drive: Drive) -> Self {
         let start = UncertainPose::default();
+        let wheels = WheelOdometry::new(drive, params.wheels, params.gyro);
         Self {
             params,
-            wheels: WheelOdometry::new(drive, params.wheels, params.gyro),
+            odometry: wheels.clone(),
+            wheels,
+            sighted_turn: SightedTurn::default(),
             ekf: Anchored::new(Ekf::new(start, params.gate)),
             svsf: Anchored::new(Svsf::new(start, params.svsf, params.gate)),
             filtered_until: None,
@@ -139,10 +148,15 @@ impl Fusion {
 
     /// `odom_from_robot` by the wheels alone.
     pub fn odometry(&self) -> UncertainPose {
-        *self.wheels.odom_from_robot()
+        *self.odometry.odom_from_robot()
     }
 
-    /// How far the heading by the wheels alone may have strayed since the beginning.
+    /// Where the wheels have brought the robot, with the gyro's bias as far as it is known; for the way between two frames.
+    pub fn dead_reckoning(&self) -> PlanarPose {
+        self.wheels.odom_from_robot().pose
+    }
+
+    /// How far dead reckoning's heading may have strayed since the beginning.
     pub fn turn_doubt(&self) -> TurnDoubt {
         self.wheels.turn_doubt()
     }
@@ -162,6 +176,7 @@ impl Fusion {
     /// # Errors
     /// As [`WheelOdometry::handle_ticks`].
     pub fn handle_ticks(&mut self, time: Timestamp, left: i64, right: i64) -> Result<(), Rejection> {
+        self.odometry.handle_ticks(time, left, right)?;
         let step = self.wheels.handle_ticks(time, left, right)?;
         self.newest = self.newest.max(Some(time));
         let start = *self.filtered_until.get_or_insert(time);
@@ -183,6 +198,7 @@ impl Fusion {
     /// # Errors
     /// As [`WheelOdometry::handle_gyro`].
     pub fn handle_gyro(&mut self, time: Timestamp, rate: f64) -> Result<(), Rejection> {
+        self.odometry.handle_gyro(time, rate)?;
         self.wheels.handle_gyro(time, rate)
     }
 
@@ -227,6 +243,9 @@ impl Fusion {
         let free_running = self.params.visual == VisualMeasurement::FreeRunning;
         self.ekf.take(&frame, free_running);
         self.svsf.take(&frame, free_running);
+        if let Some(lesson) = self.sighted_turn.see(&frame) {
+            self.wheels.learn_by_sight(&lesson);
+        }
         self.has_fused = true;
         // Both now stand at the frame; what the wheels have told since is driven again from there.
         for index in 0..self.steps.len() {
@@ -260,6 +279,7 @@ impl Fusion {
             let (before, after) = step.split(time.min(step.to));
             self.ekf.predict(&before.arc);
             self.svsf.predict(&before.arc);
+            self.sighted_turn.drive(&before.arc);
             if after.to > after.from {
                 self.steps.push_front(after);
                 break;

@@ -29,6 +29,9 @@ pub struct VisualPose {
     /// What the variance of the motion since the keyframe is to be multiplied by: 1, or more where the images it rests on
     /// are of doubtful use.
     pub doubt: f64,
+    /// What is left, in the motion since the keyframe, of the difference between the turn that was seen and the one by the
+    /// wheels and gyro: 1, or less where the pose is a compromise of both.
+    pub turn_share: f64,
 }
 
 impl VisualPose {
@@ -55,7 +58,7 @@ impl VisualPose {
     pub(super) fn is_possible(&self) -> bool {
         let pose = &self.start_from_robot;
         let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
-        numbers.chain(self.covariance.iter()).chain([&self.doubt]).all(|value| value.abs() < LARGEST)
+        numbers.chain(self.covariance.iter()).chain([&self.doubt, &self.turn_share]).all(|value| value.abs() < LARGEST)
     }
 }
 
@@ -97,6 +100,7 @@ mod tests {
             tracked: true,
             keyframe: true,
             doubt: 1.0,
+            turn_share: 1.0,
         };
         let motion = PlanarPose::new(0.1, 0.02, 0.05);
         let start_from_robot = keyframe.start_from_robot * motion.to_isometry();
@@ -123,6 +127,7 @@ mod tests {
             tracked: true,
             keyframe,
             doubt: 1.0,
+            turn_share: 1.0,
         };
         // Half a radian of roll and pitch: in space a metre ahead is 88 cm seen from above.
         let mut tilted = exp_se3(&Vector6::new(0.0, 0.0, 0.0, 0.2, -0.5, 0.0));

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::arc::Arc;
 use super::gyro::{GyroParams, HeadingGyro};
 use super::planar::UncertainPose;
+use super::sighted_turn::Lesson;
 use crate::measurement::Rejection;
 use crate::time::Timestamp;
 
@@ -276,6 +277,11 @@ impl WheelOdometry {
         }
         self.gyro.take(time, rate);
         Ok(())
+    }
+
+    /// Takes what was seen of the gyro's bias.
+    pub(super) fn learn_by_sight(&mut self, lesson: &Lesson) {
+        self.gyro.learn_by_sight(lesson);
     }
 }
 

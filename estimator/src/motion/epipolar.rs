@@ -56,6 +56,8 @@ pub struct EpipolarMotion {
     pub covariance: Matrix6<f64>,
     /// For each pair, whether it agrees.
     pub inliers: Vec<bool>,
+    /// What is left of the difference between the turn by the pairs and the one by the wheels, which is a compromise: 0–1.
+    pub turn_share: f64,
 }
 
 impl EpipolarMotion {
@@ -121,13 +123,16 @@ pub fn epipolar_motion(
     let Some(cholesky) = hessian.cholesky() else {
         return Err(MotionFailure::DegenerateGeometry { sigma: f64::INFINITY });
     };
+    let inverse = cholesky.inverse();
+    let turn_variance = rolled.down.dot(&(inverse.fixed_view::<3, 3>(3, 3) * rolled.down));
+    let turn_share = 1.0 / (1.0 + turn_variance / rolled.turn.powi(2));
     let squares: f64 = agreeing.iter().filter_map(|pair| Some(Line::of(pair, &motion)?.distance.powi(2))).sum();
     let misfit = (squares / found as f64).max(1.0);
-    let mut covariance = cholesky.inverse() * misfit;
+    let mut covariance = inverse * misfit;
     let along = motion.translation.vector.normalize();
     let mut corner = covariance.fixed_view_mut::<3, 3>(0, 0);
     corner += along * along.transpose() * (UNKNOWN * UNKNOWN);
-    Ok(EpipolarMotion { camera_from_reference: motion, covariance, inliers })
+    Ok(EpipolarMotion { camera_from_reference: motion, covariance, inliers, turn_share })
 }
 
 /// A pair under a motion.

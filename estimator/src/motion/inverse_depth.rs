@@ -72,7 +72,7 @@ pub fn inverse_depth_motion(
     let misfit = (normal.chi_squared / normal.freedom).max(1.0);
     let by_shared = cholesky.solve(&normal.by_inverse_depth) * shared_sigma;
     let covariance = cholesky.inverse() * misfit + by_shared * by_shared.transpose();
-    Ok(EpipolarMotion { camera_from_reference: motion, covariance, inliers })
+    Ok(EpipolarMotion { camera_from_reference: motion, covariance, inliers, turn_share: 1.0 })
 }
 
 /// How far a pair is from where a motion takes it.

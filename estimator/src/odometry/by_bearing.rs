@@ -126,6 +126,8 @@ pub struct ByBearing {
     /// Until the keyframe.
     slip: WheelSlip,
     last: CameraPose,
+    /// See [`EpipolarMotion::turn_share`].
+    turn_share: f64,
 }
 
 impl ByBearing {
@@ -143,12 +145,18 @@ impl ByBearing {
             keyframe: None,
             slip: WheelSlip::default(),
             last: CameraPose::start(),
+            turn_share: 1.0,
         }
     }
 
     /// Whether the infrared image of the same instant is of use.
     pub fn wants_infrared(&self) -> bool {
         self.stereo.is_some()
+    }
+
+    /// What is left, in the newest motion since a keyframe, of the difference between the turn that was seen and the wheels'.
+    pub fn turn_share(&self) -> f64 {
+        self.turn_share
     }
 
     /// Gives the keyframe up: what comes next is seen from `pose`.
@@ -223,6 +231,7 @@ impl ByBearing {
             || start.translation.vector.norm() > MAX_WAY
             || (flow.len() as f64) < LEAST_OVERLAP * found as f64;
         self.last = CameraPose { start_from_camera, covariance };
+        self.turn_share = motion.turn_share;
         if is_keyframe {
             self.slip = slip;
             self.remember(features, &luma, infrared, by_wheels);
