@@ -17,7 +17,7 @@ pub struct GyroParams {
     /// averages its gyro at switch-on. A raw MEMS gyro is off by ten times as much.
     #[serde(rename = "bias_rad_per_s")]
     pub bias: f64,
-    /// How fast the bias wanders, rad/s/√s. A guess: 0.5 °/s in ten minutes.
+    /// How fast the bias wanders, rad/s/√s. A guess: 0.25 °/s in ten minutes.
     #[serde(rename = "bias_walk_rad_per_s_per_sqrt_s")]
     pub bias_walk: f64,
     /// The bias is learnt once the wheels have stood still for so long, seconds: the chassis rocks a little after a
@@ -34,7 +34,7 @@ pub struct GyroParams {
 
 impl Default for GyroParams {
     fn default() -> Self {
-        Self { noise: 0.0017, bias: 0.0017, bias_walk: 4e-4, rest: 0.5, max_bias: 0.1, max_gap: 0.1 }
+        Self { noise: 0.0017, bias: 0.0017, bias_walk: 1.75e-4, rest: 0.5, max_bias: 0.1, max_gap: 0.1 }
     }
 }
 

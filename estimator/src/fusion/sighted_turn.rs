@@ -8,10 +8,10 @@ use super::visual::VisualPose;
 /// A difference beyond so many σ tells of a wrong match, not of a bias.
 const GATE_SIGMA: f64 = 3.0;
 
-/// Of a turn, such a share may be seen or felt wrongly each time in the same way: what calibration leaves of focal lengths
-/// and of a gyro's scale, blur that trails, a point that the robot turns about elsewhere than thought, which looks like more
-/// or less of a turn. A guess: on simulated drives up to 2 % of a quick one.
-const SCALE: f64 = 0.05;
+/// A bias is learnt where it may have done more than this share of the turn. What calibration leaves of focal lengths and of
+/// a gyro's scale, blur that trails, and above all a skid that looks like a turn are the same each time in a turn, and would
+/// not average out. A guess.
+const LEAST_SHARE: f64 = 0.15;
 
 /// How far turns that were felt were off, by what was seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +53,7 @@ impl SightedTurn {
         let error = wrap_angle(felt.turn - seen.pose.heading) / frame.turn_share;
         let variance = felt.variance + seen.covariance[(2, 2)];
         let is_likely = error.abs() < GATE_SIGMA * variance.sqrt().hypot(felt.drift);
-        // Errors of scale are the same in each keyframe of a turn and so would not average out.
-        let is_straight = SCALE * felt.turn.abs() < felt.drift;
+        let is_straight = LEAST_SHARE * felt.turn.abs() < felt.drift;
         (is_likely && is_straight).then_some(Lesson { error, variance, drift: felt.drift })
     }
 }
