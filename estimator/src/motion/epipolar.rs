@@ -251,6 +251,23 @@ mod tests {
     }
 
     #[test]
+    fn of_a_turn_that_is_a_compromise_the_share_that_was_seen_is_known() {
+        let pairs = pairs(300, 0, 7);
+        let found = |turn: f64| {
+            let wheels = Rolled { turn, ..by_wheels() };
+            let motion = epipolar_motion(&pairs, &wheels, 30).unwrap();
+            let off = motion.camera_from_reference.rotation * wheels.camera_from_reference.rotation.inverse();
+            (off.scaled_axis().y, motion.turn_share)
+        };
+        let (seen, all) = found(10.0);
+        assert!((seen + 0.009).abs() < 0.001 && all > 0.999, "{seen} {all}");
+        for turn in [1e-2, 3e-3, 1e-3] {
+            let (off, share) = found(turn);
+            assert!((off / share - seen).abs() < 0.1 * seen.abs(), "{turn}: {off} {share} {seen}");
+        }
+    }
+
+    #[test]
     fn nothing_but_mismatches_is_said_so() {
         let found = epipolar_motion(&pairs(100, 100, 1), &by_wheels(), 50);
         assert!(matches!(found, Err(MotionFailure::TooFewInliers { .. })), "{found:?}");

@@ -164,7 +164,8 @@ impl ByBearing {
         (self.keyframe, self.slip, self.last) = (None, WheelSlip::default(), pose);
     }
 
-    /// Follows one frame that the wheels say was taken at `by_wheels`: how many features it has, and its pose. `None` while the way is too short to tell. `infrared` is of the same instant.
+    /// Follows one frame that the wheels say was taken at `by_wheels`: how many features it has, and its pose. `None` while
+    /// the way is too short to tell. `infrared` is of the same instant.
     pub fn track(
         &mut self,
         rgb: &RgbImage,
