@@ -13,7 +13,7 @@ use crate::fusion::TurnDoubt;
 use crate::geometry::adjoint;
 use crate::image::{GrayImage, InfraredImage, RgbImage};
 use crate::motion::{
-    DepthPair, EpipolarMotion, Expected, GroundPlane, MotionFailure, RayPair, Rolled, epipolar_motion,
+    DepthPair, EpipolarMotion, Expected, GroundPlane, MotionFailure, RayPair, Rolled, Scale, epipolar_motion,
     inverse_depth_motion, scale_over_ground,
 };
 use crate::params::EstimatorParams;
@@ -255,9 +255,13 @@ impl ByBearing {
             let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
             let look =
                 self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
-            let slip = look.map_or(self.slip, |look| self.slip.seen(&look, start.translation.vector.norm()));
+            let way = start.translation.vector.norm();
+            let slip = look.map_or(self.slip, |look| self.slip.seen(&look, way, stray(start)));
+            let Scale { value, sigma } = slip.scale();
+            // In a turn the wheels' length errs by itself.
+            let scale = Scale { value, sigma: sigma.hypot(stray(start) / way) };
             return Ok(match look {
-                Some(_) => (motion.scaled(&slip.scale()), slip),
+                Some(_) => (motion.scaled(&scale), slip),
                 None => (motion, slip),
             });
         };

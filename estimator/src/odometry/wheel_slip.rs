@@ -29,13 +29,14 @@ impl Default for WheelSlip {
 }
 
 impl WheelSlip {
-    /// What is known of the share once a way of so many metres was seen to be longer than rolled by `look`.
-    pub fn seen(&self, look: &Scale, way: f64) -> Self {
+    /// What is known of the share once a way of so many metres was seen to be longer than rolled by `look`. `skid`: σ of what
+    /// else the wheels err by on it, metres, as in a turn.
+    pub fn seen(&self, look: &Scale, way: f64, skid: f64) -> Self {
         let variance = self.variance + WALK * WALK * way;
         let off = look.value - self.share;
         let by_scatter = (off * off - variance).max(0.0);
         let scatter = self.scatter + (by_scatter - self.scatter) / LOOKS;
-        let noise = (look.sigma * look.sigma).max(scatter) * CORRELATED;
+        let noise = (look.sigma * look.sigma).max(scatter) * CORRELATED + (skid / way).powi(2);
         let gain = variance / (variance + noise);
         Self { share: self.share + gain * off, variance: (1.0 - gain) * variance, scatter }
     }
@@ -61,7 +62,7 @@ mod tests {
         for _ in 0..60 {
             let noise: f64 = StandardNormal.sample(&mut random);
             // Each claims to be sure.
-            slip = slip.seen(&Scale { value: 0.94 + 0.1 * noise, sigma: 0.02 }, 0.3);
+            slip = slip.seen(&Scale { value: 0.94 + 0.1 * noise, sigma: 0.02 }, 0.3, 0.0);
         }
         let Scale { value, sigma } = slip.scale();
         assert!((value - 0.94).abs() < 0.03 && (0.01..0.04).contains(&sigma), "{slip:?}");
@@ -69,7 +70,13 @@ mod tests {
 
     #[test]
     fn on_even_ground_the_first_look_counts() {
-        let slip = WheelSlip::default().seen(&Scale { value: 0.96, sigma: 0.015 }, 0.3);
+        let slip = WheelSlip::default().seen(&Scale { value: 0.96, sigma: 0.015 }, 0.3, 0.0);
         assert!((slip.scale().value - 0.96).abs() < 0.01, "{slip:?}");
+    }
+
+    #[test]
+    fn what_skids_in_a_turn_teaches_little() {
+        let turning = WheelSlip::default().seen(&Scale { value: 0.8, sigma: 0.015 }, 0.1, 0.02);
+        assert!((turning.scale().value - 1.0).abs() < 0.02, "{turning:?}");
     }
 }
