@@ -177,7 +177,8 @@ impl Fusion {
     /// # Errors
     /// As [`WheelOdometry::handle_ticks`].
     pub fn handle_ticks(&mut self, time: Timestamp, left: i64, right: i64) -> Result<(), Rejection> {
-        self.odometry.handle_ticks(time, left, right)?;
+        // Both say the same of a reading, and both must have it, even one that is refused.
+        let _ = self.odometry.handle_ticks(time, left, right);
         let step = self.wheels.handle_ticks(time, left, right)?;
         self.newest = self.newest.max(Some(time));
         let start = *self.filtered_until.get_or_insert(time);
@@ -199,7 +200,7 @@ impl Fusion {
     /// # Errors
     /// As [`WheelOdometry::handle_gyro`].
     pub fn handle_gyro(&mut self, time: Timestamp, rate: f64) -> Result<(), Rejection> {
-        self.odometry.handle_gyro(time, rate)?;
+        let _ = self.odometry.handle_gyro(time, rate);
         self.wheels.handle_gyro(time, rate)
     }
 

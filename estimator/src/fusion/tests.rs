@@ -294,6 +294,19 @@ fn wheels_that_spin_are_found_out() {
 }
 
 #[test]
+fn an_encoder_that_was_reset_costs_one_reading() {
+    let mut fusion = Fusion::new(FusionParams::default(), Drive::default());
+    for (time, ticks) in [(0.0, 0), (0.1, 6_900), (0.2, 13_800)] {
+        fusion.handle_ticks(at(time), ticks, ticks).unwrap();
+    }
+    assert!(matches!(fusion.handle_ticks(at(0.3), 5_000_000, 0), Err(Rejection::ImpossibleSpeed { .. })));
+    fusion.handle_ticks(at(0.4), 5_006_900, 6_900).unwrap();
+    for pose in [fusion.odometry(), fusion.ekf(), fusion.svsf()] {
+        assert!((pose.pose.x - 0.15).abs() < 1e-9, "{pose:?}");
+    }
+}
+
+#[test]
 fn a_doubtful_mode_weighs_little() {
     let fused = |doubt: f64| {
         let params = FusionParams { gate: GateParams::open(), ..FusionParams::default() };
