@@ -278,8 +278,8 @@ impl Vision {
             self.put_down(time, 0, Tracking::none());
             return None;
         };
-        let turn_share = self.by_bearing.turn_share();
-        Some(self.found(time, features, tracking, turn_share))
+        let (visual, failure) = self.found(time, features, tracking);
+        Some((VisualPose { turn_share: self.by_bearing.turn_share(), ..visual }, failure))
     }
 
     fn follow(&mut self, time: Timestamp, frame: Frame) -> (VisualPose, Option<MotionFailure>) {
@@ -293,16 +293,10 @@ impl Vision {
         if tracking.failure.is_none() || tracking.keyframe {
             self.found_at = at;
         }
-        self.found(time, features, tracking, 1.0)
+        self.found(time, features, tracking)
     }
 
-    fn found(
-        &mut self,
-        time: Timestamp,
-        features: usize,
-        tracking: Tracking,
-        turn_share: f64,
-    ) -> (VisualPose, Option<MotionFailure>) {
+    fn found(&mut self, time: Timestamp, features: usize, tracking: Tracking) -> (VisualPose, Option<MotionFailure>) {
         self.pose = tracking.pose.clone();
         let robot_from_camera = self.rig.robot_from_colour;
         let carry = adjoint(&robot_from_camera);
@@ -314,7 +308,7 @@ impl Vision {
             tracked: failure.is_none(),
             keyframe,
             doubt: 1.0,
-            turn_share,
+            turn_share: 1.0,
         };
         let on_plane = self.on_plane.as_mut().map(|on_plane| on_plane.take(&visual));
         let (odom_from_robot, covariance) = on_plane.map_or((visual.start_from_robot, visual.covariance), |on_plane| {

@@ -255,15 +255,12 @@ impl ByBearing {
             let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
             let look =
                 self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
-            let way = start.translation.vector.norm();
-            let slip = look.map_or(self.slip, |look| self.slip.seen(&look, way, stray(start)));
+            let Some(look) = look else { return Ok((motion, self.slip)) };
+            let (way, stray) = (start.translation.vector.norm(), stray(start));
+            let slip = self.slip.seen(&look, way, stray);
             let Scale { value, sigma } = slip.scale();
             // In a turn the wheels' length errs by itself.
-            let scale = Scale { value, sigma: sigma.hypot(stray(start) / way) };
-            return Ok(match look {
-                Some(_) => (motion.scaled(&scale), slip),
-                None => (motion, slip),
-            });
+            return Ok((motion.scaled(&Scale { value, sigma: sigma.hypot(stray / way) }), slip));
         };
         let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {
             let inverse_depth = inverse_depth.map_or(DepthPair::UNMEASURED, |found| (found.value, found.sigma));
