@@ -127,7 +127,9 @@ impl HeadingGyro {
         }
         let mean_rate = angle / covered;
         if self.still_for > self.params.rest && mean_rate.abs() < self.params.max_bias {
-            self.learn(mean_rate, covered);
+            // What a gyro at rest reads is its bias.
+            self.learn(mean_rate - self.bias, self.params.noise.powi(2) / covered);
+            self.unlearnt_for = 0.0;
         }
         let before = self.unlearnt_for;
         self.unlearnt_for += dt;
@@ -139,21 +141,20 @@ impl HeadingGyro {
         })
     }
 
-    /// Scalar Kalman filter: what a gyro at rest reads is its bias.
-    fn learn(&mut self, rate: f64, seconds: f64) {
-        let noise = self.params.noise.powi(2) / seconds;
-        let gain = self.bias_variance / (self.bias_variance + noise);
-        self.bias += gain * (rate - self.bias);
-        self.bias_variance *= 1.0 - gain;
-        self.unlearnt_for = 0.0;
+    /// Scalar Kalman filter: by how much the bias seems to be larger, rad/s, and the variance of that.
+    fn learn(&mut self, off: f64, variance: f64) {
+        let total = self.bias_variance + variance;
+        if total > 0.0 {
+            let gain = self.bias_variance / total;
+            self.bias += gain * off;
+            self.bias_variance *= 1.0 - gain;
+        }
     }
 
-    /// The same from turns that were seen.
+    /// From turns that were seen.
     pub fn learn_by_sight(&mut self, lesson: &Lesson) {
-        let sigma = self.bias_variance.sqrt();
-        let total = lesson.drift * lesson.drift + lesson.variance;
-        self.bias += sigma * lesson.drift / total * lesson.error;
-        self.bias_variance *= lesson.variance / total;
+        let seconds = lesson.drift / self.bias_variance.sqrt();
+        self.learn(lesson.error / seconds, lesson.variance / (seconds * seconds));
     }
 }
 
