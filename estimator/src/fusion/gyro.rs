@@ -13,11 +13,13 @@ pub struct GyroParams {
     /// Angle random walk, rad/√s. Data sheet class; real ones on a shaking robot may be worse.
     #[serde(rename = "noise_rad_per_sqrt_s")]
     pub noise: f64,
-    /// σ of the bias before the robot has stood still for the first time, rad/s. A guess, 0.1 °/s: the P3-AT's firmware
-    /// averages its gyro at switch-on. A raw MEMS gyro is off by ten times as much.
+    /// σ of the bias before the robot has stood still for the first time, rad/s. 0.02 °/s: what 0.1 °/s/√Hz of noise leave
+    /// of it when it was averaged for half a minute before. ARIA's driver averages for a second, and leaves 0.1; a raw MEMS
+    /// gyro is off by a degree a second.
     #[serde(rename = "bias_rad_per_s")]
     pub bias: f64,
-    /// How fast the bias wanders, rad/s/√s. A guess: 0.25 °/s in ten minutes.
+    /// How fast the bias wanders, rad/s/√s. Twice what Allan variances of consumers' gyros say, 0.0005 °/s/√s at most: those
+    /// were taken at one temperature.
     #[serde(rename = "bias_walk_rad_per_s_per_sqrt_s")]
     pub bias_walk: f64,
     /// The bias is learnt once the wheels have stood still for so long, seconds: the chassis rocks a little after a
@@ -34,7 +36,7 @@ pub struct GyroParams {
 
 impl Default for GyroParams {
     fn default() -> Self {
-        Self { noise: 0.0017, bias: 0.0017, bias_walk: 1.75e-4, rest: 0.5, max_bias: 0.1, max_gap: 0.1 }
+        Self { noise: 0.0017, bias: 3.5e-4, bias_walk: 1.75e-5, rest: 0.5, max_bias: 0.1, max_gap: 0.1 }
     }
 }
 

@@ -16,10 +16,13 @@ pub struct InertialNoise {
 }
 
 impl InertialNoise {
-    /// A gyro as it was sold for Pioneers. Noise: ADXRS300's data sheet, 0.1 °/s/√Hz. The bias that is left after
-    /// averaging at rest, and its walk, are guesses.
+    /// A gyro as it was sold for Pioneers. Noise: ADXRS300's data sheet, 0.1 °/s/√Hz. Bias: what that noise leaves of it after
+    /// the robot has stood for 100 s, a guess; ARIA's driver waits three seconds and averages one. Walk: the largest of
+    /// those published of consumers' MEMS gyros, by their Allan variance: 0.00023 (Kalibr's ADIS16448) to 0.0005 °/s/√s (a
+    /// tracker's, in libsurvive's wiki).
     pub fn pioneer_gyro() -> Self {
-        Self { bias: 0.1_f64.to_radians(), bias_walk: 0.01_f64.to_radians(), density: 0.1_f64.to_radians() }
+        let [density, walk] = [0.1_f64, 0.0005].map(f64::to_radians);
+        Self { bias: density / 100.0_f64.sqrt(), bias_walk: walk, density }
     }
 
     /// A consumer's MEMS accelerometer, 300 µg/√Hz; all three figures are guesses.
