@@ -22,81 +22,78 @@ pub struct Scale {
     pub sigma: f64,
 }
 
-/// Sine of the least angle below the horizon of what may be ground: further off, a degree of tilt is a third of its depth.
-const LEAST_SINE: f64 = 0.09;
 /// What would make the way more than this much longer or shorter is no ground.
-const LARGEST_ERROR: f64 = 0.3;
-/// σ of how the ground under the wheels is tilted against the ground ahead, radians: 2°. A guess.
-const TILT: f64 = 0.035;
-/// σ of how far the ground is from being flat, as a share of the camera's height: 2 cm of 40. A guess.
+const LARGEST_ERROR: f64 = 0.4;
+/// σ of how the ground under the wheels is tilted against the ground ahead, radians: 6°, as a bank in a lawn. A guess.
+const TILT: f64 = 0.1;
+/// σ of how far the ground is from being flat, as a share of the camera's height: 3 cm of 60. A guess.
 const UNEVEN: f64 = 0.05;
-/// σ of the height that all frames share, as a share of it: half a centimetre of suspension and tyres. A guess.
-const HEIGHT: f64 = 0.015;
-/// Fewest features on the ground.
-const LEAST_FEATURES: usize = 15;
-/// Scale of the Cauchy weight, in σ.
-const CAUCHY: f64 = 1.0;
+/// Where ground ahead is tilted against the ground below, it bends on the way there: so far ahead, as a share of how far what
+/// is seen of it is, and σ of that. Were it evenly bent, half; half of the way there can't be seen. A guess.
+const BEND: [f64; 2] = [0.4, 0.2];
+/// Fewest patches on the ground.
+const LEAST_PATCHES: usize = 15;
+/// Scale of the Cauchy weight, in σ: of the first round, which is then halved down to one.
+const CAUCHY: f64 = 8.0;
 /// Rounds.
-const ITERATIONS: usize = 10;
-
-/// A feature that may lie on the ground.
-struct Candidate {
-    /// From the reference camera, z = 1.
-    ray: Vector3<f64>,
-    /// 1/z by triangulation, and its σ; 1/m.
-    inverse_depth: f64,
-    sigma: f64,
-}
+const ITERATIONS: u32 = 10;
 
 /// By how much the way between two views is longer than `camera_from_reference` says, whose rotation and direction are
-/// right. The inverse depth of a plane is linear in image coordinates, 1/z = a·(x, y, 1), and |a| is the inverse of the
-/// camera's height; triangulated with a way that is too short by a share, all of it is too large by the same share.
-/// `None` where too little of the ground is seen.
-pub fn scale_over_ground<'a>(
-    pairs: impl Iterator<Item = &'a RayPair>,
+/// right, but for a σ of `pitch` of how far it bowed, radians; `pairs` may lie on the ground. The inverse depth of a plane is linear in image coordinates, 1/z = a·(x, y, 1);
+/// triangulated with a way that is too short by a share, all of it is too large by the same share. The camera's height is
+/// the one above that plane where it meets the ground below. `None` where too little of the ground is seen.
+pub fn scale_over_ground(
+    pairs: &[RayPair],
     camera_from_reference: &Isometry3<f64>,
     ground: &GroundPlane,
+    pitch: f64,
 ) -> Option<Scale> {
-    let candidates: Vec<Candidate> = pairs.filter_map(|pair| candidate(pair, camera_from_reference, ground)).collect();
     let expected = ground.down / ground.height;
+    let candidates: Vec<(Vector3<f64>, f64, f64)> = pairs
+        .iter()
+        .map(|pair| (pair.reference, pair.inverse_depth(camera_from_reference)))
+        .filter(|(ray, (inverse_depth, _))| (inverse_depth / expected.dot(ray) - 1.0).abs() < LARGEST_ERROR)
+        .map(|(ray, (inverse_depth, sigma))| (ray, inverse_depth, sigma))
+        .collect();
+    let ahead = (Vector3::z() - ground.down * ground.down.z).normalize();
     // The tilt is about what it was; how high the camera is the data alone say.
     let across = Matrix3::identity() - ground.down * ground.down.transpose();
     let known = across * (TILT / ground.height).powi(-2);
     let mut plane = expected;
     let mut information = known;
-    let mut agreeing = 0.0;
-    for _ in 0..ITERATIONS {
+    let (mut agreeing, mut distances) = (0.0, 0.0);
+    for round in 0..ITERATIONS {
+        let cauchy = (CAUCHY / f64::from(1 << round)).max(1.0);
         information = known;
         let mut right = known * expected;
-        agreeing = 0.0;
-        for Candidate { ray, inverse_depth, sigma } in &candidates {
+        (agreeing, distances) = (0.0, 0.0);
+        for (ray, inverse_depth, sigma) in &candidates {
             let of_plane = plane.dot(ray);
             let sigma = sigma.hypot(UNEVEN * of_plane);
-            let weight = (1.0 + ((inverse_depth - of_plane) / (CAUCHY * sigma)).powi(2)).recip();
+            let weight = (1.0 + ((inverse_depth - of_plane) / (cauchy * sigma)).powi(2)).recip();
             information += ray * ray.transpose() * (weight / (sigma * sigma));
             right += ray * (inverse_depth * weight / (sigma * sigma));
             agreeing += weight;
+            distances += weight * ahead.dot(ray) / of_plane;
         }
         plane = information.cholesky()?.solve(&right);
     }
-    if agreeing < LEAST_FEATURES as f64 {
+    if agreeing < LEAST_PATCHES as f64 {
         return None;
     }
-    let value = plane.norm() * ground.height;
-    let direction = plane.normalize();
-    let variance = direction.dot(&(information.try_inverse()? * direction)) * ground.height * ground.height;
+    let distance = distances / agreeing;
+    let [bend, bend_sigma] = BEND.map(|share| share * distance);
+    let steepness = plane.dot(&ground.down);
+    let rise = plane.dot(&ahead) / steepness;
+    let height = 1.0 / steepness - bend * rise;
+    let value = ground.height / height;
+    let meeting = ahead * bend + ground.down * height;
+    let variance = meeting.dot(&(information.try_inverse()? * meeting)) / (steepness * height).powi(2);
     let is_plausible = (value - 1.0).abs() < LARGEST_ERROR;
-    is_plausible.then(|| Scale { value, sigma: variance.sqrt().hypot(HEIGHT) })
-}
-
-fn candidate(pair: &RayPair, camera_from_reference: &Isometry3<f64>, ground: &GroundPlane) -> Option<Candidate> {
-    let sine = ground.down.dot(&pair.reference.normalize());
-    if sine < LEAST_SINE {
-        return None;
-    }
-    let (inverse_depth, sigma) = pair.inverse_depth(camera_from_reference);
-    let error = inverse_depth * ground.height / ground.down.dot(&pair.reference) - 1.0;
-    (error.abs() < LARGEST_ERROR).then_some(Candidate { ray: pair.reference, inverse_depth, sigma })
+    // A bow moves the ground in the image by its angle, the way gone by way · height / distance².
+    let by_bow = pitch * distance * distance / (height * camera_from_reference.translation.vector.norm());
+    let sigma = variance.sqrt().hypot(bend_sigma * rise / height).hypot(by_bow);
+    is_plausible.then_some(Scale { value, sigma })
 }
 
 #[cfg(test)]
@@ -136,7 +133,7 @@ mod tests {
             assumed.translation.vector *= 1.0 + slip;
             // The robot stands on a bump.
             let tilted = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), tilt) * ground.down;
-            let found = scale_over_ground(pairs.iter(), &assumed, &GroundPlane { down: tilted, ..ground }).unwrap();
+            let found = scale_over_ground(&pairs, &assumed, &GroundPlane { down: tilted, ..ground }, 0.0).unwrap();
             prop_assert!((found.value * (1.0 + slip) - 1.0).abs() < 0.02, "{found:?}");
             prop_assert!(found.sigma < 0.05);
         }
@@ -146,7 +143,7 @@ mod tests {
     fn without_ground_nothing_is_said() {
         let way = Isometry3::new(Vector3::new(0.0, 0.0, -0.4), Vector3::zeros());
         let (pairs, ground) = pairs(&way, 0.1, 0.4);
-        assert_eq!(scale_over_ground(pairs[100..].iter(), &way, &ground), None);
-        assert_eq!(scale_over_ground([].iter(), &way, &ground), None);
+        assert_eq!(scale_over_ground(&pairs[100..], &way, &ground, 0.0), None);
+        assert_eq!(scale_over_ground(&[], &way, &ground, 0.0), None);
     }
 }

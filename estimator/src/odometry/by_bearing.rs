@@ -19,6 +19,7 @@ use crate::motion::{
 use crate::params::EstimatorParams;
 use crate::structure::{InverseDepth, Stereo};
 
+use super::ground_patches::ground_patches;
 use super::wheel_slip::WheelSlip;
 use super::{CameraPose, FeatureTrack, Tracking};
 
@@ -105,6 +106,7 @@ pub struct CameraByWheels {
 }
 
 struct Keyframe {
+    luma: GrayImage,
     features: Vec<Feature>,
     /// By stereo, of each feature; empty without.
     inverse_depths: Vec<Option<InverseDepth>>,
@@ -123,8 +125,8 @@ pub struct ByBearing {
     /// Where the camera is above the ground.
     ground: Option<GroundPlane>,
     keyframe: Option<Keyframe>,
-    /// Until the keyframe.
-    slip: WheelSlip,
+    /// Until the keyframe; `None` before the ground was seen.
+    slip: Option<WheelSlip>,
     last: CameraPose,
     /// See [`EpipolarMotion::turn_share`].
     turn_share: f64,
@@ -143,7 +145,7 @@ impl ByBearing {
             down: down(rig),
             ground: ground(rig),
             keyframe: None,
-            slip: WheelSlip::default(),
+            slip: None,
             last: CameraPose::start(),
             turn_share: 1.0,
         }
@@ -161,7 +163,7 @@ impl ByBearing {
 
     /// Gives the keyframe up: what comes next is seen from `pose`.
     pub fn restart(&mut self, pose: CameraPose) {
-        (self.keyframe, self.slip, self.last) = (None, WheelSlip::default(), pose);
+        (self.keyframe, self.slip, self.last) = (None, None, pose);
     }
 
     /// Follows one frame that the wheels say was taken at `by_wheels`: how many features it has, and its pose. `None` while
@@ -184,7 +186,7 @@ impl ByBearing {
         let features = self.surf.detect(&luma);
         let found = features.len();
         let (Some(keyframe), Some(start)) = (&self.keyframe, start) else {
-            self.remember(features, &luma, infrared, by_wheels);
+            self.remember(features, luma, infrared, by_wheels);
             return Some((found, self.failed(MotionFailure::NoReference, Vec::new(), true)));
         };
         stage(Stage::Matching);
@@ -208,13 +210,13 @@ impl ByBearing {
         let inverse_depths: Vec<Option<InverseDepth>> =
             matches.iter().map(|found| *keyframe.inverse_depths.get(found.to)?).collect();
         let turn = by_wheels.turn_doubt.sigma_since(&keyframe.by_wheels.turn_doubt);
-        let (motion, slip) = match self.motion(&pairs, &inverse_depths, &start, turn) {
-            Ok(found) => found,
+        let motion = match self.motion(&pairs, &inverse_depths, &start, turn) {
+            Ok(motion) => motion,
             Err(failure) => {
                 // Too far gone to be recognised: the wheels alone have been right up to here.
                 let is_far = start.translation.vector.norm() > MAX_WAY;
                 if is_far {
-                    self.remember(features, &luma, infrared, by_wheels);
+                    self.remember(features, luma, infrared, by_wheels);
                 }
                 return Some((found, self.failed(failure, tracks, is_far)));
             }
@@ -222,45 +224,37 @@ impl ByBearing {
         for (track, &inlier) in tracks.iter_mut().zip(&motion.inliers) {
             track.inlier = inlier;
         }
-        let start_from_camera = keyframe.pose.start_from_camera * motion.camera_from_reference.inverse();
-        let carry = adjoint(&start_from_camera);
-        let covariance = keyframe.pose.covariance + carry * motion.covariance * carry.transpose();
         let mut flow: Vec<f32> = tracks.iter().filter(|track| track.inlier).map(FeatureTrack::length).collect();
         let middle = flow.len() / 2;
         let flow_is_long = *flow.select_nth_unstable_by(middle, f32::total_cmp).1 > MAX_FLOW;
         let is_keyframe = flow_is_long
             || start.translation.vector.norm() > MAX_WAY
             || (flow.len() as f64) < LEAST_OVERLAP * found as f64;
+        let slip = if is_keyframe { self.slipped([&keyframe.luma, &luma], &motion, &start) } else { self.slip };
+        let motion = self.less_slip(motion, slip, &start);
+        let start_from_camera = keyframe.pose.start_from_camera * motion.camera_from_reference.inverse();
+        let carry = adjoint(&start_from_camera);
+        let covariance = keyframe.pose.covariance + carry * motion.covariance * carry.transpose();
         self.last = CameraPose { start_from_camera, covariance };
         self.turn_share = motion.turn_share;
         if is_keyframe {
             self.slip = slip;
-            self.remember(features, &luma, infrared, by_wheels);
+            self.remember(features, luma, infrared, by_wheels);
         }
         Some((found, Tracking { pose: self.last.clone(), failure: None, tracks, keyframe: is_keyframe }))
     }
 
-    /// Near where the wheels say, `start`, their turn off by a σ of `turn`; with its length, unless stereo or the ground knows
-    /// better. And what is then known of the wheels' slip.
+    /// Near where the wheels say, `start`, their turn off by a σ of `turn`; with its length, unless stereo knows better.
     fn motion(
         &self,
         pairs: &[RayPair],
         inverse_depths: &[Option<InverseDepth>],
         start: &Isometry3<f64>,
         turn: f64,
-    ) -> Result<(EpipolarMotion, WheelSlip), MotionFailure> {
+    ) -> Result<EpipolarMotion, MotionFailure> {
         let measured = inverse_depths.iter().flatten().count();
         let Some(stereo) = self.stereo.as_ref().filter(|_| measured >= MIN_MEASURED) else {
-            let motion = epipolar_motion(pairs, &self.by_wheels(start, turn), MIN_INLIERS)?.shared_by(SHARED);
-            let agreeing = pairs.iter().zip(&motion.inliers).filter_map(|(pair, inlier)| inlier.then_some(pair));
-            let look =
-                self.ground.and_then(|ground| scale_over_ground(agreeing, &motion.camera_from_reference, &ground));
-            let Some(look) = look else { return Ok((motion, self.slip)) };
-            let (way, stray) = (start.translation.vector.norm(), stray(start));
-            let slip = self.slip.seen(&look, way, stray);
-            let Scale { value, sigma } = slip.scale();
-            // In a turn the wheels' length errs by itself.
-            return Ok((motion.scaled(&Scale { value, sigma: sigma.hypot(stray / way) }), slip));
+            return Ok(epipolar_motion(pairs, &self.by_wheels(start, turn), MIN_INLIERS)?.shared_by(SHARED));
         };
         let with_depth = pairs.iter().zip(inverse_depths).map(|(&rays, inverse_depth)| {
             let inverse_depth = inverse_depth.map_or(DepthPair::UNMEASURED, |found| (found.value, found.sigma));
@@ -269,7 +263,33 @@ impl ByBearing {
         let expected = Expected { camera_from_reference: *start, stray: stray(start), along: UNKNOWN };
         let shared_sigma = stereo.shared_sigma(self.params.outdoor.calibration_sigma);
         let motion = inverse_depth_motion(&with_depth.collect::<Vec<_>>(), &expected, shared_sigma, MIN_INLIERS)?;
-        Ok((motion.shared_by(SHARED), self.slip))
+        Ok(motion.shared_by(SHARED))
+    }
+
+    /// What is known of the wheels' slip after a motion.
+    fn slipped(
+        &self,
+        [reference, image]: [&GrayImage; 2],
+        motion: &EpipolarMotion,
+        start: &Isometry3<f64>,
+    ) -> Option<WheelSlip> {
+        let ground = self.ground?;
+        let (gone, way) = (&motion.camera_from_reference, start.translation.vector.norm());
+        let patches = ground_patches(reference, image, &self.camera, gone, &ground);
+        let across = ground.down.cross(&Vector3::z()).normalize();
+        let bow = across.dot(&(motion.covariance.fixed_view::<3, 3>(3, 3) * across)).sqrt();
+        match scale_over_ground(&patches, gone, &ground, bow) {
+            Some(look) => Some(self.slip.unwrap_or_default().seen(&look, way, stray(start))),
+            None => self.slip.map(|slip| slip.unseen(way)),
+        }
+    }
+
+    /// With the length of the way that the wheels would have told without slip, unless stereo has told it.
+    fn less_slip(&self, motion: EpipolarMotion, slip: Option<WheelSlip>, start: &Isometry3<f64>) -> EpipolarMotion {
+        let Some(slip) = slip.filter(|_| self.stereo.is_none()) else { return motion };
+        let Scale { value, sigma } = slip.scale();
+        // In a turn the wheels' length errs by itself.
+        motion.scaled(&Scale { value, sigma: sigma.hypot(stray(start) / start.translation.vector.norm()) })
     }
 
     fn by_wheels(&self, start: &Isometry3<f64>, turn: f64) -> Rolled {
@@ -279,17 +299,17 @@ impl ByBearing {
     fn remember(
         &mut self,
         features: Vec<Feature>,
-        luma: &GrayImage,
+        luma: GrayImage,
         infrared: Option<&InfraredImage>,
         by_wheels: &CameraByWheels,
     ) {
         let places: Vec<(f32, f32)> = features.iter().map(|feature| (feature.x, feature.y)).collect();
         let inverse_depths = match (&mut self.stereo, infrared) {
-            (Some(stereo), Some(infrared)) => stereo.inverse_depths(&places, luma, infrared),
+            (Some(stereo), Some(infrared)) => stereo.inverse_depths(&places, &luma, infrared),
             _ => Vec::new(),
         };
         let (pose, by_wheels) = (self.last.clone(), *by_wheels);
-        self.keyframe = Some(Keyframe { features, inverse_depths, pose, by_wheels });
+        self.keyframe = Some(Keyframe { luma, features, inverse_depths, pose, by_wheels });
     }
 
     fn failed(&self, failure: MotionFailure, tracks: Vec<FeatureTrack>, keyframe: bool) -> Tracking {

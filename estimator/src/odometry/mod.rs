@@ -6,6 +6,7 @@
 mod by_bearing;
 mod frame;
 mod frame_to_frame;
+mod ground_patches;
 mod keyframes;
 mod night;
 mod wheel_slip;
