@@ -279,7 +279,8 @@ impl Vision {
             return None;
         };
         let (visual, failure) = self.found(time, features, tracking);
-        Some((VisualPose { turn_share: self.by_bearing.turn_share(), ..visual }, failure))
+        let (turn_share, way_share) = (self.by_bearing.turn_share(), self.by_bearing.way_share());
+        Some((VisualPose { turn_share, way_share, ..visual }, failure))
     }
 
     fn follow(&mut self, time: Timestamp, frame: Frame) -> (VisualPose, Option<MotionFailure>) {
@@ -309,6 +310,7 @@ impl Vision {
             keyframe,
             doubt: 1.0,
             turn_share: 1.0,
+            way_share: 1.0,
         };
         let on_plane = self.on_plane.as_mut().map(|on_plane| on_plane.take(&visual));
         let (odom_from_robot, covariance) = on_plane.map_or((visual.start_from_robot, visual.covariance), |on_plane| {

@@ -97,6 +97,8 @@ pub struct Fusion {
     /// What carries the filters on: the same, but that its gyro's bias is learnt from what is seen, too.
     wheels: WheelOdometry,
     sighted_turn: SightedTurn,
+    /// Metres gone for each metre that they roll, as the newest frame has it.
+    way_share: f64,
     ekf: Anchored<KalmanGain>,
     svsf: Anchored<SvsfGain>,
     /// Where the filters stand; `None` before anything was measured.
@@ -121,6 +123,7 @@ impl Fusion {
             odometry: wheels.clone(),
             wheels,
             sighted_turn: SightedTurn::default(),
+            way_share: 1.0,
             ekf: Anchored::new(Ekf::new(start, params.gate)),
             svsf: Anchored::new(Svsf::new(start, params.svsf, params.gate)),
             filtered_until: None,
@@ -179,7 +182,10 @@ impl Fusion {
     pub fn handle_ticks(&mut self, time: Timestamp, left: i64, right: i64) -> Result<(), Rejection> {
         // Both say the same of a reading, and both must have it, even one that is refused.
         let _ = self.odometry.handle_ticks(time, left, right);
-        let step = self.wheels.handle_ticks(time, left, right)?;
+        let mut step = self.wheels.handle_ticks(time, left, right)?;
+        if let Some(step) = &mut step {
+            step.arc.distance *= self.way_share;
+        }
         self.newest = self.newest.max(Some(time));
         let start = *self.filtered_until.get_or_insert(time);
         // Where wheels were silent the filters may have gone on without them; of a late step only the rest is new.
@@ -248,6 +254,7 @@ impl Fusion {
         if let Some(lesson) = self.sighted_turn.see(&frame) {
             self.wheels.learn_by_sight(&lesson);
         }
+        self.way_share = frame.way_share;
         self.has_fused = true;
         // Both now stand at the frame; what the wheels have told since is driven again from there.
         for index in 0..self.steps.len() {

@@ -81,6 +81,7 @@ mod tests {
             keyframe: true,
             doubt: 1.0,
             turn_share,
+            way_share: 1.0,
         }
     }
 

@@ -91,6 +91,7 @@ impl Robot {
             keyframe: self.frames.is_multiple_of(4),
             doubt: 1.0,
             turn_share: 1.0,
+            way_share: 1.0,
         };
         if visual.keyframe {
             self.keyframe = (self.truth, start_from_robot, visual.covariance);
@@ -184,6 +185,7 @@ fn frame(time: f64, x: f64) -> VisualPose {
         keyframe: true,
         doubt: 1.0,
         turn_share: 1.0,
+        way_share: 1.0,
     }
 }
 
@@ -411,7 +413,7 @@ proptest! {
             let start_from_robot = Isometry3::from_parts(nalgebra::Translation3::new(numbers[0], numbers[1], numbers[2]), turn);
             let root = Vector6::new(numbers[5], numbers[6], numbers[7], 1.0, 0.1, 0.3);
             let covariance = Matrix6::from_diagonal(&root.abs()) + root * root.transpose();
-            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe, doubt: 1.0, turn_share: 1.0 });
+            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe, doubt: 1.0, turn_share: 1.0, way_share: 1.0 });
             for estimate in [fusion.odometry(), fusion.ekf(), fusion.svsf()] {
                 prop_assert!(estimate.is_finite(), "{estimate:?}");
             }

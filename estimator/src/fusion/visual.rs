@@ -32,6 +32,8 @@ pub struct VisualPose {
     /// What is left, in the motion since the keyframe, of the difference between the turn that was seen and the one by the
     /// wheels and gyro: 1, or less where the pose is a compromise of both.
     pub turn_share: f64,
+    /// Metres gone for each metre that the wheels roll, as far as was seen of the ground; 1 where nothing was.
+    pub way_share: f64,
 }
 
 impl VisualPose {
@@ -58,7 +60,10 @@ impl VisualPose {
     pub(super) fn is_possible(&self) -> bool {
         let pose = &self.start_from_robot;
         let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
-        numbers.chain(self.covariance.iter()).chain([&self.doubt, &self.turn_share]).all(|value| value.abs() < LARGEST)
+        numbers
+            .chain(self.covariance.iter())
+            .chain([&self.doubt, &self.turn_share, &self.way_share])
+            .all(|value| value.abs() < LARGEST)
     }
 }
 
@@ -101,6 +106,7 @@ mod tests {
             keyframe: true,
             doubt: 1.0,
             turn_share: 1.0,
+            way_share: 1.0,
         };
         let motion = PlanarPose::new(0.1, 0.02, 0.05);
         let start_from_robot = keyframe.start_from_robot * motion.to_isometry();
@@ -128,6 +134,7 @@ mod tests {
             keyframe,
             doubt: 1.0,
             turn_share: 1.0,
+            way_share: 1.0,
         };
         // Half a radian of roll and pitch: in space a metre ahead is 88 cm seen from above.
         let mut tilted = exp_se3(&Vector6::new(0.0, 0.0, 0.0, 0.2, -0.5, 0.0));

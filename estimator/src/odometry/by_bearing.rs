@@ -161,6 +161,11 @@ impl ByBearing {
         self.turn_share
     }
 
+    /// Metres gone for each metre that the wheels roll; 1 while nothing is known of it.
+    pub fn way_share(&self) -> f64 {
+        self.slip.map_or(1.0, |slip| slip.scale().value)
+    }
+
     /// Gives the keyframe up: what comes next is seen from `pose`.
     pub fn restart(&mut self, pose: CameraPose) {
         (self.keyframe, self.slip, self.last) = (None, None, pose);
