@@ -92,7 +92,9 @@ mod tests {
     #[test]
     fn a_bias_is_learnt_on_the_way() {
         const BIAS: f64 = 0.002;
-        let mut wheels = WheelOdometry::new(Drive::default(), WheelOdometryParams::default(), GyroParams::default());
+        // As it comes from a driver that averages for a second.
+        let gyro = GyroParams { bias: 0.0017, ..GyroParams::default() };
+        let mut wheels = WheelOdometry::new(Drive::default(), WheelOdometryParams::default(), gyro);
         let mut turned = SightedTurn::default();
         let mut heading = 0.0;
         for hundredth in 0..=6000 {

@@ -296,6 +296,20 @@ fn wheels_that_spin_are_found_out() {
 }
 
 #[test]
+fn a_slip_that_was_seen_is_taken_off_what_the_wheels_say() {
+    // One metre in twenty is none; how far, the frames do not know.
+    let mut fusion = Fusion::new(FusionParams::default(), Drive::default());
+    straight_on(&mut fusion, 0, 61, true, |time| {
+        let covariance = Matrix6::identity() * (1.0 + time);
+        Some(VisualPose { way_share: 0.95, covariance, ..frame(time, 0.475 * time) })
+    });
+    assert!((fusion.odometry().pose.x - 3.0).abs() < 1e-9);
+    for estimate in [fusion.ekf(), fusion.svsf()] {
+        assert!((estimate.pose.x - 2.85).abs() < 0.02, "{estimate:?}");
+    }
+}
+
+#[test]
 fn an_encoder_that_was_reset_costs_one_reading() {
     let mut fusion = Fusion::new(FusionParams::default(), Drive::default());
     for (time, ticks) in [(0.0, 0), (0.1, 6_900), (0.2, 13_800)] {

@@ -364,7 +364,7 @@ mod tests {
         assert!((turned.pose.heading - 2.0).abs() < 0.03, "{}", turned.pose.heading);
         // What the bias may have done in 64 s is said all the same.
         let sigma = turned.covariance[(2, 2)].sqrt();
-        assert!(sigma > 0.06 && sigma < 0.2, "{sigma}");
+        assert!(sigma > 0.02 && sigma < 0.1, "{sigma}");
     }
 
     proptest! {

@@ -377,6 +377,30 @@ mod tests {
     }
 
     #[test]
+    fn how_far_wheels_slip_the_ground_tells() {
+        let wall =
+            |x: f64, y: f64, z: f64, distance: f64| Wall { normal: Vector3::new(x, y, z), distance, is_textured: true };
+        let walls = vec![wall(0.0, 1.0, 0.0, 0.6), wall(0.0, 0.0, 1.0, 7.0), wall(1.0, 0.0, 0.0, 1.5)];
+        let room = DarkRoom { walls, ambient: 0.0 };
+        let mut rig = dark_room::rig();
+        let turned = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(0.5, -0.5, 0.5, -0.5));
+        rig.robot_from_colour = Isometry3::from_parts(Vector3::new(0.0, 0.0, 0.6).into(), turned);
+        let mut odometry = ByBearing::new(&EstimatorParams::default(), &rig);
+        let at = |way: f64| Isometry3::translation(0.0, 0.0, way);
+        for step in 0..=32 {
+            let way = 0.1 * f64::from(step);
+            let rgb = grey(&room.albedo(&rig.colour, &at(way)));
+            // The wheels spin: one metre in sixteen is none.
+            let _ = odometry.track(&rgb, None, &rolled(at(way / 0.94)), &mut |_| {});
+        }
+        let Scale { value, sigma } = odometry.slip.unwrap().scale();
+        // Half way from what hard floors do to what six looks of half a metre say, and sure of neither.
+        assert!((value - 0.94).abs() < 0.03 && (0.01..0.04).contains(&sigma), "{value} {sigma}");
+        let gone = odometry.last.start_from_camera.translation.z;
+        assert!((gone - 3.2).abs() < 0.15, "{gone}");
+    }
+
+    #[test]
     fn stereo_says_how_far_whatever_the_wheels_say() {
         let room = lane();
         let mut rig = dark_room::rig();

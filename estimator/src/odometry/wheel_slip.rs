@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn many_doubtful_looks_make_a_sure_share() {
         // Each claims to be sure.
-        let Scale { value, sigma } = after(60, 0.94, 0.1, 0.02);
+        let Scale { value, sigma } = after(60, 0.94, 0.05, 0.02);
         assert!((value - 0.94).abs() < 0.03 && (0.01..0.04).contains(&sigma), "{value} {sigma}");
     }
 
