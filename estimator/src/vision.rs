@@ -11,7 +11,7 @@ use crate::fusion::{PlanarPose, TurnDoubt, VisualOnPlane, VisualPose};
 use crate::geometry::adjoint;
 use crate::image::{DepthImage, Image, InfraredImage, RgbImage};
 use crate::measurement::{Estimate, Health, Mode, Rejection};
-use crate::motion::MotionFailure;
+use crate::motion::{MotionFailure, Scale};
 use crate::odometry::{
     ByBearing, CameraByWheels, CameraPose, Frame, FrameBuilder, FrameReport, FrameToFrame, Keyframes,
     NightFrameBuilder, Tracking,
@@ -279,8 +279,9 @@ impl Vision {
             return None;
         };
         let (visual, failure) = self.found(time, features, tracking);
-        let (turn_share, way_share) = (self.by_bearing.turn_share(), self.by_bearing.way_share());
-        Some((VisualPose { turn_share, way_share, ..visual }, failure))
+        let turn_share = self.by_bearing.turn_share();
+        let Scale { value: way_share, sigma: shared_sigma } = self.by_bearing.way_share();
+        Some((VisualPose { turn_share, way_share, shared_sigma, ..visual }, failure))
     }
 
     fn follow(&mut self, time: Timestamp, frame: Frame) -> (VisualPose, Option<MotionFailure>) {
@@ -311,6 +312,7 @@ impl Vision {
             doubt: 1.0,
             turn_share: 1.0,
             way_share: 1.0,
+            shared_sigma: 0.0,
         };
         let on_plane = self.on_plane.as_mut().map(|on_plane| on_plane.take(&visual));
         let (odom_from_robot, covariance) = on_plane.map_or((visual.start_from_robot, visual.covariance), |on_plane| {

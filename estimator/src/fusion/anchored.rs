@@ -6,10 +6,28 @@
 //! relative motion says nothing about where it began. What is left is a filter over `keyframe_from_robot` alone, and a
 //! keyframe whose pose and covariance stand still.
 
+use nalgebra::Vector3;
+
 use super::arc::Arc;
 use super::filter::{Gain, Outcome, PoseFilter};
 use super::planar::UncertainPose;
 use super::visual::VisualPose;
+
+/// Over how many metres an error of length stays what it is: a lawn's bumps are so long, and so is what a few looks reach. A
+/// guess.
+const SHARED_OVER: f64 = 2.0;
+
+/// A motion of which a share of the length errs as it did in the motions before. The variance of a sum of such errors grows
+/// with its length L as 2 · SHARED_OVER · L (of a first-order Markov process), and so that of the motion is made to.
+fn with_shared_error(motion: &UncertainPose, sigma: f64) -> UncertainPose {
+    let along = Vector3::new(motion.pose.x, motion.pose.y, 0.0);
+    let length = along.norm();
+    if length <= 0.0 {
+        return *motion;
+    }
+    let shared = along * along.transpose() * (sigma * sigma * 2.0 * SHARED_OVER / length);
+    UncertainPose { covariance: motion.covariance + shared, ..*motion }
+}
 
 /// `odom_from_keyframe`, and the filter over `keyframe_from_robot`.
 #[derive(Clone, Debug)]
@@ -62,7 +80,8 @@ impl<G: Gain> Anchored<G> {
         let may_anchor = outcome != Some(Outcome::Gated) && !(stays && self.keyframe.is_some());
         if frame.keyframe && may_anchor {
             self.keyframe = Some(*frame);
-            self.odom_from_keyframe = self.odom_from_keyframe.compose(self.filter.estimate());
+            let gone = with_shared_error(self.filter.estimate(), frame.shared_sigma);
+            self.odom_from_keyframe = self.odom_from_keyframe.compose(&gone);
             self.filter.restart();
             self.drift = 0.0;
         }

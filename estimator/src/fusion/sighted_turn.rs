@@ -82,6 +82,7 @@ mod tests {
             doubt: 1.0,
             turn_share,
             way_share: 1.0,
+            shared_sigma: 0.0,
         }
     }
 

@@ -92,6 +92,7 @@ impl Robot {
             doubt: 1.0,
             turn_share: 1.0,
             way_share: 1.0,
+            shared_sigma: 0.0,
         };
         if visual.keyframe {
             self.keyframe = (self.truth, start_from_robot, visual.covariance);
@@ -186,6 +187,7 @@ fn frame(time: f64, x: f64) -> VisualPose {
         doubt: 1.0,
         turn_share: 1.0,
         way_share: 1.0,
+        shared_sigma: 0.0,
     }
 }
 
@@ -427,7 +429,7 @@ proptest! {
             let start_from_robot = Isometry3::from_parts(nalgebra::Translation3::new(numbers[0], numbers[1], numbers[2]), turn);
             let root = Vector6::new(numbers[5], numbers[6], numbers[7], 1.0, 0.1, 0.3);
             let covariance = Matrix6::from_diagonal(&root.abs()) + root * root.transpose();
-            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe, doubt: 1.0, turn_share: 1.0, way_share: 1.0 });
+            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe, doubt: 1.0, turn_share: 1.0, way_share: 1.0, shared_sigma: 0.0 });
             for estimate in [fusion.odometry(), fusion.ekf(), fusion.svsf()] {
                 prop_assert!(estimate.is_finite(), "{estimate:?}");
             }

@@ -34,6 +34,9 @@ pub struct VisualPose {
     pub turn_share: f64,
     /// Metres gone for each metre that the wheels roll, as far as was seen of the ground; 1 where nothing was.
     pub way_share: f64,
+    /// σ of what the length of the way since the keyframe shares with that of the ways before, as a share of it; 0 where
+    /// each is measured by itself.
+    pub shared_sigma: f64,
 }
 
 impl VisualPose {
@@ -62,7 +65,7 @@ impl VisualPose {
         let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
         numbers
             .chain(self.covariance.iter())
-            .chain([&self.doubt, &self.turn_share, &self.way_share])
+            .chain([&self.doubt, &self.turn_share, &self.way_share, &self.shared_sigma])
             .all(|value| value.abs() < LARGEST)
     }
 }
@@ -107,6 +110,7 @@ mod tests {
             doubt: 1.0,
             turn_share: 1.0,
             way_share: 1.0,
+            shared_sigma: 0.0,
         };
         let motion = PlanarPose::new(0.1, 0.02, 0.05);
         let start_from_robot = keyframe.start_from_robot * motion.to_isometry();
@@ -135,6 +139,7 @@ mod tests {
             doubt: 1.0,
             turn_share: 1.0,
             way_share: 1.0,
+            shared_sigma: 0.0,
         };
         // Half a radian of roll and pitch: in space a metre ahead is 88 cm seen from above.
         let mut tilted = exp_se3(&Vector6::new(0.0, 0.0, 0.0, 0.2, -0.5, 0.0));

@@ -161,9 +161,9 @@ impl ByBearing {
         self.turn_share
     }
 
-    /// Metres gone for each metre that the wheels roll; 1 while nothing is known of it.
-    pub fn way_share(&self) -> f64 {
-        self.slip.map_or(1.0, |slip| slip.scale().value)
+    /// Metres gone for each metre that the wheels roll; one, for certain, while nothing is known of it.
+    pub fn way_share(&self) -> Scale {
+        self.slip.map_or(Scale { value: 1.0, sigma: 0.0 }, |slip| slip.scale())
     }
 
     /// Gives the keyframe up: what comes next is seen from `pose`.
