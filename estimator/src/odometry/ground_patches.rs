@@ -19,8 +19,8 @@ const LEAST_SINE: f64 = 0.2;
 const SEARCH: f64 = 0.35;
 /// Step of the search, pixels.
 const STEP: f64 = 0.5;
-/// What moves by less, pixels, over the whole search says nothing.
-const LEAST_MOVE: f64 = 4.0;
+/// What moves by less, pixels, over the whole search says nothing; what moves by more passes below the camera.
+const MOVE: std::ops::Range<f64> = 4.0..300.0;
 /// Standard deviation of a patch's grey levels at least: twice a camera's noise.
 const LEAST_CONTRAST: f32 = 3.0;
 /// Correlation of two views of one patch at least.
@@ -101,7 +101,7 @@ impl<'a> Sighting<'a> {
     fn find(&self, patch: &Patch, image: &GrayImage) -> Option<Vector3<f64>> {
         let (first, last) = (1.0 - SEARCH, 1.0 + SEARCH);
         let length = (self.place(last)? - self.place(first)?).norm();
-        if length < LEAST_MOVE {
+        if !MOVE.contains(&length) {
             return None;
         }
         let steps = (length / STEP).ceil() as usize;
@@ -175,4 +175,39 @@ fn interpolated(image: &GrayImage, place: Point2<f32>) -> f32 {
         f32::from(row[x]) * (1.0 - u) + f32::from(row[x + 1]) * u
     });
     above * (1.0 - v) + below * v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Rig;
+
+    /// Squares of 8 px in 256 greys, none of them next to its like.
+    fn chequered() -> GrayImage {
+        let grey = |x: usize, y: usize| ((x / 8 * 7919 + y / 8 * 104_729) % 256) as u8;
+        let pixels = (0..640 * 480).map(|index| grey(index % 640, index / 640)).collect();
+        GrayImage::from_pixels(640, 480, pixels).unwrap()
+    }
+
+    fn patches(way: f64) -> Vec<RayPair> {
+        let (image, camera) = (chequered(), Rig::kinect_default().colour);
+        let ground = GroundPlane { down: Vector3::y(), height: 0.6 };
+        ground_patches(&image, &image, &camera, &Isometry3::translation(0.0, 0.0, -way), &ground)
+    }
+
+    #[test]
+    fn what_passes_below_the_camera_is_not_sought() {
+        // Of each row: on the longest way that is looked at the ground comes as near to the camera as numbers allow.
+        let camera = Rig::kinect_default().colour;
+        let rows = (REACH..480).step_by(SPACING).map(|row| camera.ray(&Point2::new(0.0, row as f64)).y);
+        let near = rows.filter(|&down| down > 0.0).map(|down| 0.6 / (down * (1.0 + SEARCH)) * (1.0 - 1e-13));
+        for way in near.chain([1.0, 1.5, 5.0, 1e9]) {
+            assert!(patches(way).iter().all(|pair| pair.camera.iter().all(|x| x.is_finite())), "{way}");
+        }
+    }
+
+    #[test]
+    fn where_nothing_moves_nothing_is_said() {
+        assert!(patches(0.0).is_empty() && patches(f64::NAN).is_empty());
+    }
 }
