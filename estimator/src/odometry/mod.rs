@@ -1,7 +1,8 @@
 //! Visual odometry (paper A, §4): features with 3D points from colour and depth (`frame`) or infrared and depth
 //! (`night`), then motion against a window of keyframes (`keyframes`) or, as the paper has it, against the frame before
-//! (`frame_to_frame`). Where there is no depth: the direction from colour, the length from the wheels or from colour and
-//! infrared as a stereo camera (`by_bearing`).
+//! (`frame_to_frame`). Where there is no depth (`by_bearing`): the direction from colour, the length from the wheels, less
+//! what they slip (`wheel_slip`) by the ground that passes below (`ground_patches`), or from colour and infrared as a
+//! stereo camera.
 
 mod by_bearing;
 mod frame;
