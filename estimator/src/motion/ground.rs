@@ -39,9 +39,10 @@ const CAUCHY: f64 = 8.0;
 const ITERATIONS: u32 = 10;
 
 /// By how much the way between two views is longer than `camera_from_reference` says, whose rotation and direction are
-/// right, but for a σ of `pitch` of how far it bowed, radians; `pairs` may lie on the ground. The inverse depth of a plane is linear in image coordinates, 1/z = a·(x, y, 1);
-/// triangulated with a way that is too short by a share, all of it is too large by the same share. The camera's height is
-/// the one above that plane where it meets the ground below. `None` where too little of the ground is seen.
+/// right, but for a σ of `pitch` of how far it bowed, radians; `pairs` may lie on the ground. The inverse depth of a plane is
+/// linear in image coordinates, 1/z = a·(x, y, 1); triangulated with a way that is too short by a share, all of it is too
+/// large by the same share. The camera's height is the one above that plane where it meets the ground below. `None` where
+/// too little of the ground is seen.
 pub fn scale_over_ground(
     pairs: &[RayPair],
     camera_from_reference: &Isometry3<f64>,

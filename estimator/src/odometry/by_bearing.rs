@@ -96,6 +96,13 @@ fn stray(camera_from_reference: &Isometry3<f64>) -> f64 {
     (STRAY * way).hypot(STRAY_TURNING * turn.sqrt())
 }
 
+/// With the length of the way that the wheels would have told without slip.
+fn less_slip(motion: EpipolarMotion, slip: &WheelSlip, start: &Isometry3<f64>) -> EpipolarMotion {
+    let Scale { value, sigma } = slip.scale();
+    // In a turn the wheels' length errs by itself.
+    motion.scaled(&Scale { value, sigma: sigma.hypot(stray(start) / start.translation.vector.norm()) })
+}
+
 /// Where the wheels have a camera.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraByWheels {
@@ -122,7 +129,7 @@ pub struct ByBearing {
     stereo: Option<Stereo>,
     /// From the camera straight down, in its frame.
     down: Vector3<f64>,
-    /// Where the camera is above the ground.
+    /// Where the camera is above the ground; `None` also where stereo says how far it went.
     ground: Option<GroundPlane>,
     keyframe: Option<Keyframe>,
     /// Until the keyframe; `None` before the ground was seen.
@@ -141,9 +148,9 @@ impl ByBearing {
             params: params.clone(),
             camera: rig.colour,
             surf,
-            stereo,
             down: down(rig),
-            ground: ground(rig),
+            ground: ground(rig).filter(|_| stereo.is_none()),
+            stereo,
             keyframe: None,
             slip: None,
             last: CameraPose::start(),
@@ -236,7 +243,10 @@ impl ByBearing {
             || start.translation.vector.norm() > MAX_WAY
             || (flow.len() as f64) < LEAST_OVERLAP * found as f64;
         let slip = if is_keyframe { self.slipped([&keyframe.luma, &luma], &motion, &start) } else { self.slip };
-        let motion = self.less_slip(motion, slip, &start);
+        let motion = match slip {
+            Some(slip) => less_slip(motion, &slip, &start),
+            None => motion,
+        };
         let start_from_camera = keyframe.pose.start_from_camera * motion.camera_from_reference.inverse();
         let carry = adjoint(&start_from_camera);
         let covariance = keyframe.pose.covariance + carry * motion.covariance * carry.transpose();
@@ -287,14 +297,6 @@ impl ByBearing {
             Some(look) => Some(self.slip.unwrap_or_default().seen(&look, way, stray(start))),
             None => self.slip.map(|slip| slip.unseen(way)),
         }
-    }
-
-    /// With the length of the way that the wheels would have told without slip, unless stereo has told it.
-    fn less_slip(&self, motion: EpipolarMotion, slip: Option<WheelSlip>, start: &Isometry3<f64>) -> EpipolarMotion {
-        let Some(slip) = slip.filter(|_| self.stereo.is_none()) else { return motion };
-        let Scale { value, sigma } = slip.scale();
-        // In a turn the wheels' length errs by itself.
-        motion.scaled(&Scale { value, sigma: sigma.hypot(stray(start) / start.translation.vector.norm()) })
     }
 
     fn by_wheels(&self, start: &Isometry3<f64>, turn: f64) -> Rolled {
