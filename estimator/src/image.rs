@@ -66,6 +66,18 @@ impl<P: Copy> Image<P> {
     }
 }
 
+impl<P: Copy + Into<f32>> Image<P> {
+    /// The value at a place between four pixels, bilinear; beyond the last column and row as there. Panics where `x` or `y`
+    /// lies outside the image.
+    pub fn between(&self, x: f32, y: f32) -> f32 {
+        let (column, row) = (x as usize, y as usize);
+        let (right, below) = ((column + 1).min(self.width - 1), (row + 1).min(self.height - 1));
+        let (x, y) = (x - column as f32, y - row as f32);
+        let along = |row: &[P]| row[column].into() * (1.0 - x) + row[right].into() * x;
+        along(self.row(row)) * (1.0 - y) + along(self.row(below)) * y
+    }
+}
+
 impl RgbImage {
     /// Luma by ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B, in 16-bit fixed point.
     pub fn to_luma(&self) -> GrayImage {
@@ -89,6 +101,15 @@ mod tests {
         for value in [0, 1, 127, 255] {
             assert_eq!(RgbImage::filled(2, 2, [value; 3]).to_luma().at(1, 1), value);
         }
+    }
+
+    #[test]
+    fn between_four_pixels_lies_their_plane_and_beyond_the_last_ones_nothing_new() {
+        let image = Image::from_pixels(2, 2, vec![10_u16, 20, 30, 40]).unwrap();
+        for (x, y) in [(0.0, 0.0), (0.25, 0.5), (0.75, 0.125)] {
+            assert_eq!(image.between(x, y), 10.0 + 10.0 * x + 20.0 * y);
+        }
+        assert_eq!((image.between(1.5, 0.0), image.between(1.5, 1.5)), (20.0, 40.0));
     }
 
     #[test]

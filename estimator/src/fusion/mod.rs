@@ -97,7 +97,8 @@ pub struct Fusion {
     /// What carries the filters on: the same, but that its gyro's bias is learnt from what is seen, too.
     wheels: WheelOdometry,
     sighted_turn: SightedTurn,
-    /// Metres gone for each metre that they roll, as the newest frame has it.
+    /// Metres gone for each metre that they roll, as the newest frame has it. Not within `wheels`: it is learnt against the way
+    /// that they tell.
     way_share: f64,
     ekf: Anchored<KalmanGain>,
     svsf: Anchored<SvsfGain>,

@@ -159,22 +159,12 @@ impl Patch {
         }
         let levels = std::array::from_fn(|index| {
             let aside = Vector2::new((index % SIDE) as f32 - reach, (index / SIDE) as f32 - reach);
-            interpolated(image, place + warp * aside)
+            let place = place + warp * aside;
+            image.between(place.x, place.y)
         });
         let other = Self::normalised(levels, 0.0)?;
         Some(self.0.iter().zip(&other.0).map(|(a, b)| a * b).sum())
     }
-}
-
-/// Bilinear, within the image.
-fn interpolated(image: &GrayImage, place: Point2<f32>) -> f32 {
-    let (x, y) = (place.x as usize, place.y as usize);
-    let (u, v) = (place.x - x as f32, place.y - y as f32);
-    let [above, below] = [y, y + 1].map(|y| {
-        let row = image.row(y);
-        f32::from(row[x]) * (1.0 - u) + f32::from(row[x + 1]) * u
-    });
-    above * (1.0 - v) + below * v
 }
 
 #[cfg(test)]

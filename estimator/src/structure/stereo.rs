@@ -95,7 +95,8 @@ impl Stereo {
     /// What the infrared camera would see if it looked as the colour camera does, with the colour image's grey levels
     /// ("first scaled and histogram-adjusted to look like RGB"): as many pixels are darker as in the colour image.
     fn aligned(&self, infrared: &InfraredImage, luma: &GrayImage) -> GrayImage {
-        let seen: Vec<Option<u16>> = self.places.iter().map(|place| Some(sampled(infrared, (*place)?))).collect();
+        let at = |(x, y): (f32, f32)| infrared.between(x, y).round() as u16;
+        let seen: Vec<Option<u16>> = self.places.iter().map(|place| place.map(at)).collect();
         let (mut darker, mut levels) = (vec![0_usize; LEVELS], [0_usize; 256]);
         for (value, &grey) in seen.iter().zip(luma.pixels()) {
             if let Some(value) = value {
@@ -129,15 +130,6 @@ impl Stereo {
         let value = (here.x - there.x) / (at.x - at.z * there.x);
         InverseDepth { value, sigma: self.shared_sigma(f64::from(found.sigma)) }
     }
-}
-
-/// Between four pixels.
-fn sampled(image: &InfraredImage, (x, y): (f32, f32)) -> u16 {
-    let (column, row) = (x as usize, y as usize);
-    let (right, below) = ((column + 1).min(image.width() - 1), (row + 1).min(image.height() - 1));
-    let (x, y) = (x - column as f32, y - row as f32);
-    let along = |row: usize| f32::from(image.at(column, row)) * (1.0 - x) + f32::from(image.at(right, row)) * x;
-    (along(row) * (1.0 - y) + along(below) * y).round() as u16
 }
 
 #[cfg(test)]

@@ -1,3 +1,5 @@
+//! The figures beside evo's and closed forms, and what they may not depend on.
+
 use approx::assert_relative_eq;
 use nalgebra::{Isometry3, Matrix6, Quaternion, Translation3, UnitQuaternion, Vector3, Vector6};
 use proptest::prelude::*;

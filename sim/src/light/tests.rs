@@ -1,3 +1,5 @@
+//! Sky, sun, clouds and lamps beside published tables and closed forms.
+
 use glam::Vec3;
 
 use super::*;

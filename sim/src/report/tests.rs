@@ -1,3 +1,5 @@
+//! Reports of logs that are full, thin, or without truth.
+
 mod simulated;
 
 use std::f64::consts::TAU;

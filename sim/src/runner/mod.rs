@@ -7,8 +7,8 @@
 //! use sunblind_sim::evaluation::evaluate;
 //! use sunblind_sim::record::Recording;
 //! use sunblind_sim::runner::{Driven, ReplayOptions, replay};
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let my_localizer: Box<dyn sunblind_estimator::Localizer + Send> = todo!();
+//! # use sunblind_estimator::Localizer;
+//! # fn score(my_localizer: Box<dyn Localizer + Send>) -> Result<(), Box<dyn std::error::Error>> {
 //! let recording = Recording::open("path/to/recording".as_ref(), None)?;
 //! let log = replay(&recording, vec![Driven::own("mine", "my localiser", my_localizer)], &ReplayOptions::default())?;
 //! let score = evaluate(&log.tracks[0].frames, &log.truth);

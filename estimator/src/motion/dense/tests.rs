@@ -1,3 +1,5 @@
+//! What a wall, a texture or a corner says of a motion, in rooms whose depth and shade are known.
+
 use super::*;
 use crate::dark_room::{self, DarkRoom, Wall};
 use crate::geometry::log_se3;

@@ -1,3 +1,5 @@
+//! A metre along a wall by the projector's light and by a lamp's.
+
 use nalgebra::{Isometry3, Vector3};
 
 use super::*;

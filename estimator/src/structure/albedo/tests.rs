@@ -1,3 +1,5 @@
+//! The recovered albedo beside the one that a room truly has.
+
 use nalgebra::{Isometry3, Vector3};
 
 use super::*;

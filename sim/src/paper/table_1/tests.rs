@@ -1,3 +1,5 @@
+//! The board, its ink and its place, and how its errors grow; the table as it is written.
+
 use super::*;
 use crate::paper::board::BESIDE;
 

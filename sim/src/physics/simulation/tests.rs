@@ -1,3 +1,5 @@
+//! The robot beside closed forms and published figures: speed, turns, slip, gyro.
+
 mod terrain;
 
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,3 +1,5 @@
+//! Calibration files: what they mean, what is refused and where, and that they come back as written.
+
 use super::*;
 
 const KINECT: &str = include_str!("kinect.toml");

@@ -1,3 +1,5 @@
+//! Recordings as they are written: whole or not at all, and read again to the bit.
+
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Vector3};

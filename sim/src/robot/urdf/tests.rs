@@ -1,3 +1,5 @@
+//! The P3-AT's file beside its published figures, and files that are refused.
+
 use super::*;
 
 const P3AT: &str = include_str!("../../../../assets/robots/p3at.urdf");

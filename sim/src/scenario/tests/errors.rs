@@ -1,3 +1,5 @@
+//! What is said of a scenario that is wrong, and where.
+
 use super::*;
 
 fn error_of(text: &str) -> String {

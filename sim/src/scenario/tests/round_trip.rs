@@ -1,3 +1,5 @@
+//! Any valid scenario comes back as it was written, any text gets an answer.
+
 use proptest::option;
 use proptest::prelude::*;
 use sunblind_estimator::params::Variant;

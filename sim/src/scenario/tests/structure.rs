@@ -1,3 +1,5 @@
+//! The schema beside the loader and the shipped scenarios.
+
 use serde_json::{Value, json};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Light that is passed on, in boxes and corners with closed forms.
+
 use std::fs;
 
 use glam::{Vec3, vec3};

@@ -1,3 +1,5 @@
+//! The campus: whole, light enough, and its loop free and closed.
+
 use std::sync::LazyLock;
 
 use glam::{DVec3, vec2};

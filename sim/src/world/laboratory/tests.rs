@@ -1,3 +1,5 @@
+//! The laboratory: whole, light enough, and its loop free and full of structure.
+
 use std::sync::LazyLock;
 
 use glam::Vec3;

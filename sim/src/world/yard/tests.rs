@@ -1,3 +1,5 @@
+//! The yard: whole, its ground as it is driven on, and its loop free.
+
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
