@@ -24,8 +24,9 @@ pub struct DenseMotion {
 const ITERATIONS: usize = 12;
 /// A step that moves less than this ends them, metres and radians.
 const STEP_TOLERANCE: f64 = 2e-5;
-/// Shade that changes by less than this a pixel of the grid may be noise: speckle leaves 3 to 5. Levels.
-const LEAST_GRADIENT: f32 = 6.0;
+/// Shade that changes by less than so many σ of its noise a pixel of the grid may be nothing else, and where it is fixed to
+/// the sensor it says that nothing moved.
+const STEEP: f32 = 3.0;
 /// σ of depth against depth: this · z², metres. Half a step of a Kinect on both sides.
 const AXIAL: f64 = 2.0e-3;
 /// σ of the place that a depth is of, pixels of the grid: a Kinect's matcher takes it from a window as large as two.
@@ -197,7 +198,7 @@ impl System {
                 add(&mut system.geometry, &full(&point, &row), f64::from(apart), weight);
                 let Some([shade, gradient_x, gradient_y]) = camera.sample(&camera.shade, u, v) else { continue };
                 let before = reference.shade.at(x, y);
-                if reference.steepness(x, y) < LEAST_GRADIENT || shade == 0.0 || before == 0.0 {
+                if reference.steepness(x, y) < STEEP * reference.shade_noise || shade == 0.0 || before == 0.0 {
                     continue;
                 }
                 let residual = shade - before - offset as f32;

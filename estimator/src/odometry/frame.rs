@@ -46,6 +46,9 @@ const LEAST_FILLED: f64 = 0.3;
 /// a tenth more is well above noise.
 const LEVELS_PER_E: f32 = 100.0;
 
+/// σ of shade, levels: one of 50 grey levels, where a dark image is noisy by so much. A guess.
+const SHADE_NOISE: f32 = 2.0;
+
 /// The paper's own variant uses no depth beyond 2.4 m; ours weighs it by its uncertainty.
 pub(super) fn depth_noise(params: &EstimatorParams) -> DepthNoise {
     let mut noise = params.depth_noise;
@@ -56,8 +59,8 @@ pub(super) fn depth_noise(params: &EstimatorParams) -> DepthNoise {
 }
 
 /// For the views that keyframes are aligned by; the paper's own variant has none.
-pub(super) fn view_maker(params: &EstimatorParams, camera: &CameraModel) -> Option<ViewMaker> {
-    (params.variant == Variant::Keyframes).then(|| ViewMaker::new(camera))
+pub(super) fn view_maker(params: &EstimatorParams, camera: &CameraModel, shade_noise: f32) -> Option<ViewMaker> {
+    (params.variant == Variant::Keyframes).then(|| ViewMaker::new(camera, shade_noise))
 }
 
 /// Makes frames of colour and depth images.
@@ -73,7 +76,7 @@ impl FrameBuilder {
     /// Tables for one rig.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         let (registration, surf) = (Registration::new(rig), Surf::new(params.surf));
-        let views = view_maker(params, &rig.colour);
+        let views = view_maker(params, &rig.colour, SHADE_NOISE);
         Self { registration, surf, views, noise: depth_noise(params), rig: rig.clone() }
     }
 

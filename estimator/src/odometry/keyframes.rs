@@ -56,8 +56,9 @@ impl Default for KeyframeParams {
 /// Least share of a keyframe's pixels that must be seen in a frame, or that becomes a keyframe itself. A guess.
 const LEAST_OVERLAP: f64 = 0.6;
 
-/// Fewer features that agree may agree by chance or lie in one corner of the image: then all pixels are asked. A guess.
-const FEW: usize = 30;
+/// Fewer features that agree may agree by chance or lie in one corner of the image, as before a bare wall with a door beside
+/// it: then all pixels are asked. A guess.
+const FEW: usize = 60;
 
 /// A motion by all pixels, in the start frame.
 struct ByAllPixels {

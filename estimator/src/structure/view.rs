@@ -21,6 +21,8 @@ pub struct DenseView {
     pub rays: Arc<Vec<Vector3<f64>>>,
     /// Levels; 0 = unknown.
     pub shade: Image<f32>,
+    /// σ of what shade changes by from pixel to pixel for no reason of the scene's, levels.
+    pub shade_noise: f32,
     /// Z, metres; 0 = unknown, or an edge.
     pub depth: Image<f32>,
 }
@@ -29,11 +31,12 @@ pub struct DenseView {
 pub struct ViewMaker {
     camera: CameraModel,
     rays: Arc<Vec<Vector3<f64>>>,
+    shade_noise: f32,
 }
 
 impl ViewMaker {
-    /// For one camera.
-    pub fn new(camera: &CameraModel) -> Self {
+    /// For one camera; `shade_noise` as in [`DenseView`].
+    pub fn new(camera: &CameraModel, shade_noise: f32) -> Self {
         let size = PIXELS as f64;
         // Pixel centres are at whole numbers in both.
         let centre = |c: f64| (c + 0.5) / size - 0.5;
@@ -47,7 +50,8 @@ impl ViewMaker {
             distortion: camera.distortion,
         };
         let ray = |index| coarse.ray(&Point2::new((index % coarse.width) as f64, (index / coarse.width) as f64));
-        Self { camera: coarse, rays: Arc::new((0..coarse.width * coarse.height).map(ray).collect()) }
+        let rays = Arc::new((0..coarse.width * coarse.height).map(ray).collect());
+        Self { camera: coarse, rays, shade_noise }
     }
 
     /// The view of one image; `shade` in levels, `depth` in metres, 0 = unknown in both.
@@ -56,6 +60,7 @@ impl ViewMaker {
             camera: self.camera,
             rays: Arc::clone(&self.rays),
             shade: shrunk(shade, f32::INFINITY),
+            shade_noise: self.shade_noise,
             depth: shrunk(depth, FLAT),
         }
     }

@@ -9,7 +9,7 @@ use crate::structure::{AlbedoCamera, ViewMaker};
 fn views(walls: Vec<Wall>, reference_from_camera: &Isometry3<f64>) -> [DenseView; 2] {
     let room = DarkRoom { walls, ambient: 0.0 };
     let depth_camera = dark_room::rig().depth;
-    let views = ViewMaker::new(&depth_camera.model);
+    let views = ViewMaker::new(&depth_camera.model, 4.0);
     let mut camera = AlbedoCamera::new(&depth_camera);
     let mut see = |pose: &Isometry3<f64>, seed| {
         let seen = room.seen_from(pose, seed);
