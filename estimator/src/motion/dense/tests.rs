@@ -51,6 +51,18 @@ fn texture_on_a_flat_wall_says_where_along_it() {
 }
 
 #[test]
+fn what_the_dots_leave_is_no_texture() {
+    let texture = |is_textured| {
+        let [view, _] = views(vec![wall(0.1, 0.0, 1.0, 2.5, is_textured)], &motion());
+        let (width, height) = view.shade.size();
+        let places = (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| (x, y)));
+        places.filter(|&(x, y)| view.steepness(x, y) >= STEEP * view.shade_noise).count()
+    };
+    let (bare, textured) = (texture(false), texture(true));
+    assert!(bare == 0 && textured > 5000, "{bare} {textured}");
+}
+
+#[test]
 fn a_bare_corner_is_enough() {
     let corner =
         || vec![wall(1.0, 0.2, 0.8, 2.0, false), wall(-1.0, 0.3, 0.9, 2.0, false), wall(0.0, 1.0, 0.2, 1.0, false)];
