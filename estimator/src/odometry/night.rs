@@ -5,15 +5,12 @@ use crate::estimator::Stage;
 use crate::features::surf::Surf;
 use crate::image::{DepthImage, InfraredImage};
 use crate::params::EstimatorParams;
-use crate::structure::{AlbedoCamera, DepthNoise, ViewMaker, depth_at, lift};
+use crate::structure::{ALBEDO_NOISE, AlbedoCamera, DepthNoise, ViewMaker, depth_at, lift};
 
 use super::{Frame, FrameView, depth_noise, view_maker};
 
 /// Least scale of a feature, pixels. Smaller ones lie on what is left of single dots, which are fixed to the sensor.
 const MIN_SCALE: f32 = 2.8;
-
-/// σ of shade, levels: speckle, and what is left of the dots, leave 3 to 5.
-const SHADE_NOISE: f32 = 4.0;
 
 /// Makes frames of infrared and depth images.
 pub struct NightFrameBuilder {
@@ -28,7 +25,7 @@ impl NightFrameBuilder {
     /// For one rig; `None` where depth does not lie in the infrared image's pixels.
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Option<Self> {
         let camera = (!rig.depth.registered_to_colour).then(|| AlbedoCamera::new(&rig.depth))?;
-        let (views, surf) = (view_maker(params, &rig.depth.model, SHADE_NOISE), Surf::new(params.surf));
+        let (views, surf) = (view_maker(params, &rig.depth.model, ALBEDO_NOISE), Surf::new(params.surf));
         Some(Self { camera, views, surf, noise: depth_noise(params), rig: rig.clone() })
     }
 

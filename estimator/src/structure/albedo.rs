@@ -27,6 +27,8 @@ const CELL_FILLED: f64 = 0.2;
 const FILLED: f32 = 0.3;
 /// Grey levels for each factor of e: 5 e-foldings fill the scale, so that a level is 2 %, less than the noise.
 const LEVELS_PER_E: f32 = 50.0;
+/// σ of the levels, once means of blocks are taken of them: speckle, and what is left of the dots, leave 3 to 5.
+pub const ALBEDO_NOISE: f32 = 4.0;
 /// Light that counts as none, numbers at 1 m: below it there is only noise. A guess: read noise is 3.
 const DARK: f32 = 3.0;
 

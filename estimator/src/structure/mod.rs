@@ -10,7 +10,7 @@ mod register;
 mod stereo;
 mod view;
 
-pub use albedo::{Albedo, AlbedoCamera};
+pub use albedo::{ALBEDO_NOISE, Albedo, AlbedoCamera};
 pub use lift::{DepthNoise, Landmark, MAX_WINDOW, depth_at, lift};
 pub use register::{RegisteredDepth, Registration};
 pub use stereo::{InverseDepth, Stereo};

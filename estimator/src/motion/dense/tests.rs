@@ -3,13 +3,13 @@
 use super::*;
 use crate::dark_room::{self, DarkRoom, Wall};
 use crate::geometry::log_se3;
-use crate::structure::{AlbedoCamera, ViewMaker};
+use crate::structure::{ALBEDO_NOISE, AlbedoCamera, ViewMaker};
 
 /// Two views of a room, one from where `reference_from_camera` says.
 fn views(walls: Vec<Wall>, reference_from_camera: &Isometry3<f64>) -> [DenseView; 2] {
     let room = DarkRoom { walls, ambient: 0.0 };
     let depth_camera = dark_room::rig().depth;
-    let views = ViewMaker::new(&depth_camera.model, 4.0);
+    let views = ViewMaker::new(&depth_camera.model, ALBEDO_NOISE);
     let mut camera = AlbedoCamera::new(&depth_camera);
     let mut see = |pose: &Isometry3<f64>, seed| {
         let seen = room.seen_from(pose, seed);
