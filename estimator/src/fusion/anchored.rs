@@ -5,6 +5,10 @@
 //! Roumeliotis & Burdick 2002) the shared error cancels in the innovation and the keyframe's own gain is zero, since a
 //! relative motion says nothing about where it began. What is left is a filter over `keyframe_from_robot` alone, and a
 //! keyframe whose pose and covariance stand still.
+//!
+//! All frames of one keyframe share its error, too: fused one after the other they would count it as often as there are
+//! frames, and the filter would believe a bare wall's slide thirty times. So each is held against what the wheels alone
+//! say of the whole way since the keyframe, and takes the place of the one before.
 
 use nalgebra::Vector3;
 
@@ -35,6 +39,8 @@ pub(super) struct Anchored<G> {
     /// As visual odometry has it; `None` before the first.
     keyframe: Option<VisualPose>,
     odom_from_keyframe: UncertainPose,
+    /// `keyframe_from_robot` by the wheels alone, at the filter's instant.
+    by_wheels: UncertainPose,
     /// At the instant of the last measurement.
     filter: PoseFilter<G>,
     /// `keyframe_from_robot`, carried on to now.
@@ -47,7 +53,8 @@ pub(super) struct Anchored<G> {
 impl<G: Gain> Anchored<G> {
     pub fn new(filter: PoseFilter<G>) -> Self {
         let now = *filter.estimate();
-        Self { keyframe: None, odom_from_keyframe: UncertainPose::default(), filter, now, drift: 0.0, drift_now: 0.0 }
+        let odom_from_keyframe = UncertainPose::default();
+        Self { keyframe: None, odom_from_keyframe, by_wheels: now, filter, now, drift: 0.0, drift_now: 0.0 }
     }
 
     /// The pose now.
@@ -66,7 +73,12 @@ impl<G: Gain> Anchored<G> {
 
     /// Carries the filter on.
     pub fn predict(&mut self, arc: &Arc) {
-        self.filter.predict(&arc.motion_after(self.drift));
+        let motion = arc.motion_after(self.drift);
+        self.filter.predict(&motion);
+        let by_wheels = self.by_wheels.compose(&motion);
+        if by_wheels.is_finite() {
+            self.by_wheels = by_wheels;
+        }
         self.drift += arc.turn_drift;
         (self.now, self.drift_now) = (*self.filter.estimate(), self.drift);
     }
@@ -75,7 +87,10 @@ impl<G: Gain> Anchored<G> {
     /// first keyframe stays the only one.
     pub fn take(&mut self, frame: &VisualPose, stays: bool) {
         let measured = self.keyframe.filter(|_| frame.tracked).map(|keyframe| frame.since(&keyframe));
-        let outcome = measured.map(|measured| self.filter.update_pose(&measured));
+        let outcome = measured.map(|measured| match stays {
+            true => self.filter.update_pose(&measured),
+            false => self.filter.update_pose_from(&self.by_wheels, &measured),
+        });
         // What was kept out may turn out to be true: with the old keyframe nothing of it is lost by then.
         let may_anchor = outcome != Some(Outcome::Gated) && !(stays && self.keyframe.is_some());
         if frame.keyframe && may_anchor {
@@ -83,7 +98,7 @@ impl<G: Gain> Anchored<G> {
             let gone = with_shared_error(self.filter.estimate(), frame.shared_sigma);
             self.odom_from_keyframe = self.odom_from_keyframe.compose(&gone);
             self.filter.restart();
-            self.drift = 0.0;
+            (self.by_wheels, self.drift) = (UncertainPose::default(), 0.0);
         }
         (self.now, self.drift_now) = (*self.filter.estimate(), self.drift);
     }
@@ -91,8 +106,42 @@ impl<G: Gain> Anchored<G> {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Matrix6;
+
     use super::*;
-    use crate::fusion::PlanarPose;
+    use crate::fusion::{Ekf, GateParams, PlanarPose, WheelOdometryParams};
+    use crate::time::Timestamp;
+
+    #[test]
+    fn however_many_frames_a_keyframe_has_its_error_counts_once() {
+        let after = |frames: u32| {
+            let mut anchored = Anchored::new(Ekf::new(UncertainPose::default(), GateParams::default()));
+            for number in 0..=frames {
+                let (share, step) = (f64::from(number) / f64::from(frames), 1.0 / f64::from(frames));
+                if number > 0 {
+                    anchored.predict(&WheelOdometryParams::default().arc(0.3 * step, 0.0, 2.0 * step));
+                }
+                // Half a centimetre aside, as the keyframe has it.
+                let visual = VisualPose {
+                    time: Timestamp::from_nanos(i64::from(number)),
+                    start_from_robot: PlanarPose::new(0.3 * share, 0.005 * share, 0.0).to_isometry(),
+                    covariance: Matrix6::identity() * (1e-5 * share),
+                    tracked: number > 0,
+                    keyframe: number == 0,
+                    doubt: 1.0,
+                    turn_share: 1.0,
+                    way_share: 1.0,
+                    shared_sigma: 0.0,
+                };
+                anchored.take(&visual, false);
+            }
+            anchored.odom_from_robot()
+        };
+        let (once, often) = (after(1), after(30));
+        assert!(once.pose.y > 0.001, "{once:?}");
+        assert!(once.pose.minus(&often.pose).norm() < 1e-4, "{once:?} {often:?}");
+        assert!((once.covariance - often.covariance).norm() < 0.02 * once.covariance.norm(), "{once:?} {often:?}");
+    }
 
     #[test]
     fn however_often_a_way_is_cut_its_length_is_as_unsure() {

@@ -114,15 +114,21 @@ impl<G: Gain> PoseFilter<G> {
 
     /// Takes a measured pose, H = I.
     pub fn update_pose(&mut self, measured: &UncertainPose) -> Outcome {
+        self.update_pose_from(&self.estimate.clone(), measured)
+    }
+
+    /// Takes a measured pose and another prediction than the estimate, which has in it what was measured before with the
+    /// same error. What is kept out leaves the estimate as it was.
+    pub fn update_pose_from(&mut self, predicted: &UncertainPose, measured: &UncertainPose) -> Outcome {
         let mut seen = Innovation {
-            error: measured.pose.minus(&self.estimate.pose),
+            error: measured.pose.minus(&predicted.pose),
             last_posterior: self.pose_posterior,
             jacobian: Matrix3::identity(),
-            predicted: self.estimate.covariance,
+            predicted: predicted.covariance,
             noise: measured.covariance,
         };
         let repeats = self.surprise.is_none_or(|last| seen.agrees_with(&last));
-        let outcome = self.correct(&mut seen, Some(repeats), |gain, seen| {
+        let outcome = self.correct(&predicted.pose, &mut seen, Some(repeats), |gain, seen| {
             Some((gain.for_pose(seen)?, gain.expected_for_pose(seen)?))
         });
         self.surprise = (!self.gate.is_calm()).then_some(seen.error);
@@ -143,7 +149,9 @@ impl<G: Gain> PoseFilter<G> {
             noise: sighting.covariance,
         };
         // Sightings of different landmarks can't be compared.
-        let outcome = self.correct(&mut seen, None, |gain, seen| gain.for_landmark(seen).map(|gain| (gain, gain)));
+        let predicted = self.estimate.pose;
+        let outcome =
+            self.correct(&predicted, &mut seen, None, |gain, seen| gain.for_landmark(seen).map(|gain| (gain, gain)));
         if outcome == Outcome::Fused {
             self.landmark_posterior = landmark_error(sighting, landmark, &self.estimate.pose);
         }
@@ -160,6 +168,7 @@ impl<G: Gain> PoseFilter<G> {
 
     fn correct<const M: usize>(
         &mut self,
+        predicted: &PlanarPose,
         seen: &mut Innovation<M>,
         repeats: Option<bool>,
         gains: impl Fn(&G, &Innovation<M>) -> Option<(SMatrix<f64, 3, M>, SMatrix<f64, 3, M>)>,
@@ -178,7 +187,7 @@ impl<G: Gain> PoseFilter<G> {
         let rest = Matrix3::identity() - expected * seen.jacobian;
         let covariance = rest * seen.predicted * rest.transpose() + expected * seen.noise * expected.transpose();
         let corrected =
-            UncertainPose { pose: self.estimate.pose.plus(&(gain * seen.error)), covariance: symmetric(&covariance) };
+            UncertainPose { pose: predicted.plus(&(gain * seen.error)), covariance: symmetric(&covariance) };
         if !corrected.is_finite() {
             return Outcome::Unusable;
         }
