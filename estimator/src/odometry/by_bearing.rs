@@ -13,14 +13,12 @@ use crate::fusion::TurnDoubt;
 use crate::geometry::adjoint;
 use crate::image::{GrayImage, InfraredImage, RgbImage};
 use crate::motion::{
-    DepthPair, EpipolarMotion, Expected, GroundPlane, MotionFailure, RayPair, Rolled, Scale, epipolar_motion,
-    inverse_depth_motion, scale_over_ground,
+    DepthPair, EpipolarMotion, Expected, MotionFailure, RayPair, Rolled, Scale, epipolar_motion, inverse_depth_motion,
 };
 use crate::params::EstimatorParams;
 use crate::structure::{InverseDepth, Stereo};
 
-use super::ground_patches::ground_patches;
-use super::wheel_slip::WheelSlip;
+use super::way_length::WayLength;
 use super::{CameraPose, FeatureTrack, Tracking};
 
 /// Shortest way between two views that says something, metres: what a metre away is moves by 25 px.
@@ -80,12 +78,6 @@ impl Default for OutdoorParams {
     }
 }
 
-/// The ground that the robot's wheels stand on, as the colour camera has it; `None` for a camera on the ground or below.
-fn ground(rig: &Rig) -> Option<GroundPlane> {
-    let height = rig.robot_from_colour.translation.z;
-    (height > 0.0).then_some(GroundPlane { down: down(rig), height })
-}
-
 fn down(rig: &Rig) -> Vector3<f64> {
     rig.robot_from_colour.rotation.inverse() * -Vector3::z()
 }
@@ -94,13 +86,6 @@ fn down(rig: &Rig) -> Vector3<f64> {
 fn stray(camera_from_reference: &Isometry3<f64>) -> f64 {
     let (way, turn) = (camera_from_reference.translation.vector.norm(), camera_from_reference.rotation.angle());
     (STRAY * way).hypot(STRAY_TURNING * turn.sqrt())
-}
-
-/// With the length of the way that the wheels would have told without slip.
-fn less_slip(motion: EpipolarMotion, slip: &WheelSlip, start: &Isometry3<f64>) -> EpipolarMotion {
-    let Scale { value, sigma } = slip.scale();
-    // In a turn the wheels' length errs by itself.
-    motion.scaled(&Scale { value, sigma: sigma.hypot(stray(start) / start.translation.vector.norm()) })
 }
 
 /// Where the wheels have a camera.
@@ -129,11 +114,9 @@ pub struct ByBearing {
     stereo: Option<Stereo>,
     /// From the camera straight down, in its frame.
     down: Vector3<f64>,
-    /// Where the camera is above the ground; `None` also where stereo says how far it went.
-    ground: Option<GroundPlane>,
+    /// Until the keyframe. Where stereo says how far the camera went the ground is not looked at.
+    length: WayLength,
     keyframe: Option<Keyframe>,
-    /// Until the keyframe; `None` before the ground was seen.
-    slip: Option<WheelSlip>,
     last: CameraPose,
     /// See [`EpipolarMotion::turn_share`].
     turn_share: f64,
@@ -149,10 +132,9 @@ impl ByBearing {
             camera: rig.colour,
             surf,
             down: down(rig),
-            ground: ground(rig).filter(|_| stereo.is_none()),
+            length: WayLength::new(rig, stereo.is_none()),
             stereo,
             keyframe: None,
-            slip: None,
             last: CameraPose::start(),
             turn_share: 1.0,
         }
@@ -170,12 +152,13 @@ impl ByBearing {
 
     /// Metres gone for each metre that the wheels roll; one, for certain, while nothing is known of it.
     pub fn way_share(&self) -> Scale {
-        self.slip.map_or(Scale { value: 1.0, sigma: 0.0 }, |slip| slip.scale())
+        self.length.share()
     }
 
     /// Gives the keyframe up: what comes next is seen from `pose`.
     pub fn restart(&mut self, pose: CameraPose) {
-        (self.keyframe, self.slip, self.last) = (None, None, pose);
+        (self.keyframe, self.last) = (None, pose);
+        self.length.restart();
     }
 
     /// Follows one frame that the wheels say was taken at `by_wheels`: how many features it has, and its pose. `None` while
@@ -242,18 +225,16 @@ impl ByBearing {
         let is_keyframe = flow_is_long
             || start.translation.vector.norm() > MAX_WAY
             || (flow.len() as f64) < LEAST_OVERLAP * found as f64;
-        let slip = if is_keyframe { self.slipped([&keyframe.luma, &luma], &motion, &start) } else { self.slip };
-        let motion = match slip {
-            Some(slip) => less_slip(motion, &slip, &start),
-            None => motion,
-        };
+        if is_keyframe {
+            self.length.look([&keyframe.luma, &luma], &motion, &start, stray(&start));
+        }
+        let motion = self.length.less_slip(motion, &start, stray(&start));
         let start_from_camera = keyframe.pose.start_from_camera * motion.camera_from_reference.inverse();
         let carry = adjoint(&start_from_camera);
         let covariance = keyframe.pose.covariance + carry * motion.covariance * carry.transpose();
         self.last = CameraPose { start_from_camera, covariance };
         self.turn_share = motion.turn_share;
         if is_keyframe {
-            self.slip = slip;
             self.remember(features, luma, infrared, by_wheels);
         }
         Some((found, Tracking { pose: self.last.clone(), failure: None, tracks, keyframe: is_keyframe }))
@@ -279,24 +260,6 @@ impl ByBearing {
         let shared_sigma = stereo.shared_sigma(self.params.outdoor.calibration_sigma);
         let motion = inverse_depth_motion(&with_depth.collect::<Vec<_>>(), &expected, shared_sigma, MIN_INLIERS)?;
         Ok(motion.shared_by(SHARED))
-    }
-
-    /// What is known of the wheels' slip after a motion.
-    fn slipped(
-        &self,
-        [reference, image]: [&GrayImage; 2],
-        motion: &EpipolarMotion,
-        start: &Isometry3<f64>,
-    ) -> Option<WheelSlip> {
-        let ground = self.ground?;
-        let (gone, way) = (&motion.camera_from_reference, start.translation.vector.norm());
-        let patches = ground_patches(reference, image, &self.camera, gone, &ground);
-        let across = ground.down.cross(&Vector3::z()).normalize();
-        let bow = across.dot(&(motion.covariance.fixed_view::<3, 3>(3, 3) * across)).sqrt();
-        match scale_over_ground(&patches, gone, &ground, bow) {
-            Some(look) => Some(self.slip.unwrap_or_default().seen(&look, way, stray(start))),
-            None => self.slip.map(|slip| slip.unseen(way)),
-        }
     }
 
     fn by_wheels(&self, start: &Isometry3<f64>, turn: f64) -> Rolled {
@@ -395,7 +358,7 @@ mod tests {
             // The wheels spin: one metre in sixteen is none.
             let _ = odometry.track(&rgb, None, &rolled(at(way / 0.94)), &mut |_| {});
         }
-        let Scale { value, sigma } = odometry.slip.unwrap().scale();
+        let Scale { value, sigma } = odometry.way_share();
         // Half way from what hard floors do to what six looks of half a metre say, and sure of neither.
         assert!((value - 0.94).abs() < 0.03 && (0.01..0.04).contains(&sigma), "{value} {sigma}");
         let gone = odometry.last.start_from_camera.translation.z;

@@ -1,8 +1,8 @@
 //! Visual odometry (paper A, §4): features with 3D points from colour and depth (`frame`) or infrared and depth
 //! (`night`), then motion against a window of keyframes (`keyframes`) or, as the paper has it, against the frame before
-//! (`frame_to_frame`). Where there is no depth (`by_bearing`): the direction from colour, the length from the wheels, less
-//! what they slip (`wheel_slip`) by the ground that passes below (`ground_patches`), or from colour and infrared as a
-//! stereo camera.
+//! (`frame_to_frame`). Where there is no depth (`by_bearing`): the direction from colour, the length from the wheels
+//! (`way_length`), less what they slip (`wheel_slip`) by the ground that passes below (`ground_patches`), or from colour
+//! and infrared as a stereo camera.
 
 mod by_bearing;
 mod frame;
@@ -10,6 +10,7 @@ mod frame_to_frame;
 mod ground_patches;
 mod keyframes;
 mod night;
+mod way_length;
 mod wheel_slip;
 
 use nalgebra::{Isometry3, Matrix6};
