@@ -27,7 +27,7 @@ pub struct KeyframeParams {
     pub min_overlap: f64,
     /// σ of what calibration and rolling shutter bend each step between keyframes by, as a share of the step: of the
     /// distance gone, and of the turn, which swings the camera about the scene that it looks at. A guess: a recorded
-    /// Kinect whose cameras were aligned to 2 px turns 6 % too little, and that is taken for two σ.
+    /// Kinect whose cameras were aligned to 2 px turns 6 % too little.
     pub systematic_share: f64,
     /// After this many frames without motion the odometry gives the old keyframes up and starts from what it sees.
     pub max_lost_frames: usize,
@@ -45,7 +45,7 @@ impl Default for KeyframeParams {
             window: 2,
             max_flow: 10.0,
             min_overlap: 0.3,
-            systematic_share: 0.03,
+            systematic_share: 0.06,
             max_lost_frames: 3,
             lost_translation: 0.033,
             lost_rotation: 0.035,
