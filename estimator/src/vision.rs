@@ -303,17 +303,10 @@ impl Vision {
         let robot_from_camera = self.rig.robot_from_colour;
         let carry = adjoint(&robot_from_camera);
         let (pose, failure, keyframe) = (&tracking.pose, tracking.failure, tracking.keyframe);
-        let visual = VisualPose {
-            time,
-            start_from_robot: robot_from_camera * pose.start_from_camera * robot_from_camera.inverse(),
-            covariance: carry * pose.covariance * carry.transpose(),
-            tracked: failure.is_none(),
-            keyframe,
-            doubt: 1.0,
-            turn_share: 1.0,
-            way_share: 1.0,
-            shared_sigma: 0.0,
-        };
+        let start_from_robot = robot_from_camera * pose.start_from_camera * robot_from_camera.inverse();
+        let covariance = carry * pose.covariance * carry.transpose();
+        let tracked = failure.is_none();
+        let visual = VisualPose { tracked, keyframe, ..VisualPose::keyframe(time, start_from_robot, covariance) };
         let on_plane = self.on_plane.as_mut().map(|on_plane| on_plane.take(&visual));
         let (odom_from_robot, covariance) = on_plane.map_or((visual.start_from_robot, visual.covariance), |on_plane| {
             (on_plane.pose.to_isometry(), on_plane.covariance_in_space())

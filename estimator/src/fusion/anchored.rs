@@ -64,10 +64,7 @@ impl<G: Gain> Anchored<G> {
 
     /// Carries the pose of now on; the filter stays where its last measurement was.
     pub fn carry(&mut self, arc: &Arc) {
-        let carried = self.now.compose(&arc.motion_after(self.drift_now));
-        if carried.is_finite() {
-            self.now = carried;
-        }
+        self.now = self.now.carried(&arc.motion_after(self.drift_now));
         self.drift_now += arc.turn_drift;
     }
 
@@ -75,10 +72,7 @@ impl<G: Gain> Anchored<G> {
     pub fn predict(&mut self, arc: &Arc) {
         let motion = arc.motion_after(self.drift);
         self.filter.predict(&motion);
-        let by_wheels = self.by_wheels.compose(&motion);
-        if by_wheels.is_finite() {
-            self.by_wheels = by_wheels;
-        }
+        self.by_wheels = self.by_wheels.carried(&motion);
         self.drift += arc.turn_drift;
         (self.now, self.drift_now) = (*self.filter.estimate(), self.drift);
     }
@@ -122,18 +116,11 @@ mod tests {
                     anchored.predict(&WheelOdometryParams::default().arc(0.3 * step, 0.0, 2.0 * step));
                 }
                 // Half a centimetre aside, as the keyframe has it.
-                let visual = VisualPose {
-                    time: Timestamp::from_nanos(i64::from(number)),
-                    start_from_robot: PlanarPose::new(0.3 * share, 0.005 * share, 0.0).to_isometry(),
-                    covariance: Matrix6::identity() * (1e-5 * share),
-                    tracked: number > 0,
-                    keyframe: number == 0,
-                    doubt: 1.0,
-                    turn_share: 1.0,
-                    way_share: 1.0,
-                    shared_sigma: 0.0,
-                };
-                anchored.take(&visual, false);
+                let start_from_robot = PlanarPose::new(0.3 * share, 0.005 * share, 0.0).to_isometry();
+                let (time, covariance) =
+                    (Timestamp::from_nanos(i64::from(number)), Matrix6::identity() * (1e-5 * share));
+                let visual = VisualPose::keyframe(time, start_from_robot, covariance);
+                anchored.take(&VisualPose { tracked: number > 0, keyframe: number == 0, ..visual }, false);
             }
             anchored.odom_from_robot()
         };

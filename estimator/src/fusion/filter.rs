@@ -106,15 +106,13 @@ impl<G: Gain> PoseFilter<G> {
 
     /// Paper A, Eqs. 7–8 and 12: `start_from_end` of a motion carries the pose on, its noise is Q.
     pub fn predict(&mut self, motion: &UncertainPose) {
-        let predicted = self.estimate.compose(motion);
-        if predicted.is_finite() {
-            self.estimate = predicted;
-        }
+        self.estimate = self.estimate.carried(motion);
     }
 
     /// Takes a measured pose, H = I.
     pub fn update_pose(&mut self, measured: &UncertainPose) -> Outcome {
-        self.update_pose_from(&self.estimate.clone(), measured)
+        let predicted = self.estimate;
+        self.update_pose_from(&predicted, measured)
     }
 
     /// Takes a measured pose and another prediction than the estimate, which has in it what was measured before with the

@@ -115,6 +115,12 @@ impl UncertainPose {
         Self { pose, covariance: symmetric(&covariance) }
     }
 
+    /// This pose after a motion; the same one where that would leave no finite numbers.
+    pub(super) fn carried(&self, motion: &Self) -> Self {
+        let carried = self.compose(motion);
+        if carried.is_finite() { carried } else { *self }
+    }
+
     /// The ground track of a pose in space whose covariance is that of a left perturbation (ρ, φ), as in
     /// [`Estimate`](crate::Estimate). With p the position and f the x axis, to first order
     /// δp = ρ + φ × p and δf = φ × f, so δheading = (fx δfy − fy δfx) / (fx² + fy²): a tilted robot's roll and pitch

@@ -73,17 +73,9 @@ mod tests {
 
     /// At a heading, after so many seconds of growing doubt.
     fn keyframe(secs: f64, heading: f64, turn_share: f64) -> VisualPose {
-        VisualPose {
-            time: at(secs),
-            start_from_robot: PlanarPose::new(0.2 * secs, 0.0, heading).to_isometry(),
-            covariance: Matrix6::identity() * (1e-6 * (1.0 + secs)),
-            tracked: true,
-            keyframe: true,
-            doubt: 1.0,
-            turn_share,
-            way_share: 1.0,
-            shared_sigma: 0.0,
-        }
+        let start_from_robot = PlanarPose::new(0.2 * secs, 0.0, heading).to_isometry();
+        let covariance = Matrix6::identity() * (1e-6 * (1.0 + secs));
+        VisualPose { turn_share, ..VisualPose::keyframe(at(secs), start_from_robot, covariance) }
     }
 
     fn felt(turn: f64, turn_drift: f64) -> Arc {

@@ -84,15 +84,8 @@ impl Robot {
         let carry = adjoint(&start_from_robot);
         let own = carry * Matrix6::from_diagonal(&sigma.component_mul(&sigma)) * carry.transpose();
         let visual = VisualPose {
-            time: at(self.time),
-            start_from_robot,
-            covariance: covariance + own,
-            tracked: true,
             keyframe: self.frames.is_multiple_of(4),
-            doubt: 1.0,
-            turn_share: 1.0,
-            way_share: 1.0,
-            shared_sigma: 0.0,
+            ..VisualPose::keyframe(at(self.time), start_from_robot, covariance + own)
         };
         if visual.keyframe {
             self.keyframe = (self.truth, start_from_robot, visual.covariance);
@@ -178,17 +171,7 @@ fn straight_on(
 }
 
 fn frame(time: f64, x: f64) -> VisualPose {
-    VisualPose {
-        time: at(time),
-        start_from_robot: Isometry3::translation(x, 0.0, 0.0),
-        covariance: Matrix6::identity() * (1e-6 * (1.0 + time)),
-        tracked: true,
-        keyframe: true,
-        doubt: 1.0,
-        turn_share: 1.0,
-        way_share: 1.0,
-        shared_sigma: 0.0,
-    }
+    VisualPose::keyframe(at(time), Isometry3::translation(x, 0.0, 0.0), Matrix6::identity() * (1e-6 * (1.0 + time)))
 }
 
 #[test]
@@ -429,7 +412,7 @@ proptest! {
             let start_from_robot = Isometry3::from_parts(nalgebra::Translation3::new(numbers[0], numbers[1], numbers[2]), turn);
             let root = Vector6::new(numbers[5], numbers[6], numbers[7], 1.0, 0.1, 0.3);
             let covariance = Matrix6::from_diagonal(&root.abs()) + root * root.transpose();
-            let _ = fusion.handle_visual(VisualPose { time: at(time - 0.01), start_from_robot, covariance, tracked, keyframe, doubt: 1.0, turn_share: 1.0, way_share: 1.0, shared_sigma: 0.0 });
+            let _ = fusion.handle_visual(VisualPose { tracked, keyframe, ..VisualPose::keyframe(at(time - 0.01), start_from_robot, covariance) });
             for estimate in [fusion.odometry(), fusion.ekf(), fusion.svsf()] {
                 prop_assert!(estimate.is_finite(), "{estimate:?}");
             }

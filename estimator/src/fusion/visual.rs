@@ -40,6 +40,13 @@ pub struct VisualPose {
 }
 
 impl VisualPose {
+    /// A keyframe whose motion was found, in images that nobody doubts and without the wheels' help.
+    pub fn keyframe(time: Timestamp, start_from_robot: Isometry3<f64>, covariance: Matrix6<f64>) -> Self {
+        let (doubt, turn_share, way_share, shared_sigma) = (1.0, 1.0, 1.0, 0.0);
+        let (tracked, keyframe) = (true, true);
+        Self { time, start_from_robot, covariance, tracked, keyframe, doubt, turn_share, way_share, shared_sigma }
+    }
+
     /// `keyframe_from_robot` in the plane of `keyframe`'s robot. Only what came after the keyframe is in the covariance,
     /// and the tilt that the pose may have gathered before is in neither.
     pub(super) fn since(&self, keyframe: &Self) -> UncertainPose {
@@ -100,18 +107,9 @@ mod tests {
     #[test]
     fn only_the_way_since_the_keyframe_counts() {
         let time = Timestamp::from_nanos(0);
-        let keyframe = VisualPose {
-            time,
-            // Four metres off and tilted by what has gathered on the way.
-            start_from_robot: exp_se3(&Vector6::new(4.0, 1.0, 0.1, 0.02, -0.03, 0.8)),
-            covariance: Matrix6::identity() * 0.04,
-            tracked: true,
-            keyframe: true,
-            doubt: 1.0,
-            turn_share: 1.0,
-            way_share: 1.0,
-            shared_sigma: 0.0,
-        };
+        // Four metres off and tilted by what has gathered on the way.
+        let start_from_robot = exp_se3(&Vector6::new(4.0, 1.0, 0.1, 0.02, -0.03, 0.8));
+        let keyframe = VisualPose::keyframe(time, start_from_robot, Matrix6::identity() * 0.04);
         let motion = PlanarPose::new(0.1, 0.02, 0.05);
         let start_from_robot = keyframe.start_from_robot * motion.to_isometry();
         // A millimetre each way at the robot, a milliradian of turn about it.
@@ -131,15 +129,8 @@ mod tests {
     fn a_tilt_that_has_gathered_does_not_bend_the_way() {
         let mut on_plane = VisualOnPlane::default();
         let frame = |start_from_robot: Isometry3<f64>, keyframe: bool| VisualPose {
-            time: Timestamp::from_nanos(0),
-            start_from_robot,
-            covariance: Matrix6::identity() * 0.04,
-            tracked: true,
             keyframe,
-            doubt: 1.0,
-            turn_share: 1.0,
-            way_share: 1.0,
-            shared_sigma: 0.0,
+            ..VisualPose::keyframe(Timestamp::from_nanos(0), start_from_robot, Matrix6::identity() * 0.04)
         };
         // Half a radian of roll and pitch: in space a metre ahead is 88 cm seen from above.
         let mut tilted = exp_se3(&Vector6::new(0.0, 0.0, 0.0, 0.2, -0.5, 0.0));

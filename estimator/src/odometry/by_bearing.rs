@@ -78,10 +78,6 @@ impl Default for OutdoorParams {
     }
 }
 
-fn down(rig: &Rig) -> Vector3<f64> {
-    rig.robot_from_colour.rotation.inverse() * -Vector3::z()
-}
-
 /// σ of how far from where the wheels say a camera may be on either side, metres.
 fn stray(camera_from_reference: &Isometry3<f64>) -> f64 {
     let (way, turn) = (camera_from_reference.translation.vector.norm(), camera_from_reference.rotation.angle());
@@ -127,12 +123,13 @@ impl ByBearing {
     pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         let surf = Surf::new(params.surf);
         let stereo = (params.outdoor.method == OutdoorMethod::Stereo).then(|| Stereo::new(rig)).flatten();
+        let down = rig.robot_from_colour.rotation.inverse() * -Vector3::z();
         Self {
             params: params.clone(),
             camera: rig.colour,
             surf,
-            down: down(rig),
-            length: WayLength::new(rig, stereo.is_none()),
+            down,
+            length: WayLength::new(rig, down, stereo.is_none()),
             stereo,
             keyframe: None,
             last: CameraPose::start(),

@@ -13,7 +13,7 @@ use crate::motion::{EpipolarMotion, GroundPlane, Scale, scale_over_ground};
 /// no slip.
 #[derive(Clone, Copy, Debug)]
 struct Lean {
-    /// Along the camera's way: what the wheels say of it, what leaning adds, and both as they were assumed; metres.
+    /// Along the camera's way, metres: what the wheels say of it, what leaning adds, and what was assumed of it.
     rolled: f64,
     leant: f64,
     assumed: f64,
@@ -55,13 +55,12 @@ pub(super) struct WayLength {
 }
 
 impl WayLength {
-    /// Nothing seen yet. `looks`: whether the ground is looked at.
-    pub fn new(rig: &Rig, looks: bool) -> Self {
-        let camera_from_robot = rig.robot_from_colour.rotation.inverse();
-        let height = rig.robot_from_colour.translation.z;
-        let down = camera_from_robot * -Vector3::z();
+    /// Nothing seen yet; `down` leads from the camera to the ground, in its frame. `looks`: whether the ground is looked at.
+    pub fn new(rig: &Rig, down: Vector3<f64>, looks: bool) -> Self {
+        let robot_from_colour = &rig.robot_from_colour;
+        let height = robot_from_colour.translation.z;
         let ground = (looks && height > 0.0).then_some(GroundPlane { down, height });
-        let lever = camera_from_robot * rig.robot_from_colour.translation.vector;
+        let lever = robot_from_colour.rotation.inverse() * robot_from_colour.translation.vector;
         Self { camera: rig.colour, ground, lever, slip: None }
     }
 
@@ -139,7 +138,7 @@ mod tests {
                 inliers: Vec::new(),
                 turn_share: 1.0,
             };
-            let length = WayLength::new(&rig, true);
+            let length = WayLength::new(&rig, Vector3::y(), true);
             let lean = Lean::of(&motion, &start, &length.lever);
             let further = truth.translation.vector.norm() / assumed.translation.vector.norm();
             let robot = lean.of_robot(&Scale { value: further, sigma: 0.02 });
