@@ -152,6 +152,12 @@ impl DepthCamera {
     }
 }
 
+/// What [`Rig::alignment_sigma`] is of a Kinect that nobody calibrated, pixels: so far out was a recorded one whose images its
+/// driver had registered.
+pub const UNCALIBRATED_SIGMA: f64 = 2.0;
+/// Cameras further out than this show each other nothing, pixels. A guess.
+const MAX_ALIGNMENT_SIGMA: f64 = 50.0;
+
 /// What the estimator believes of the sensors on the robot. The true calibration is another object, elsewhere.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rig {
@@ -161,6 +167,9 @@ pub struct Rig {
     pub depth: DepthCamera,
     /// Points in the depth camera's frame → the colour camera's.
     pub colour_from_depth: Isometry3<f64>,
+    /// σ of where this calibration puts what one camera sees in the other's image, by its focal lengths, centres and turn
+    /// together; pixels of the colour camera.
+    pub alignment_sigma: f64,
     /// Points in the colour camera's frame → the robot's (x forward, y left, z up).
     /// For a hand-held camera the "robot" is whatever body the poses are wanted of.
     pub robot_from_colour: Isometry3<f64>,
@@ -189,6 +198,7 @@ impl Rig {
                 registered_to_colour: true,
             },
             colour_from_depth: Isometry3::identity(),
+            alignment_sigma: UNCALIBRATED_SIGMA,
             robot_from_colour: Isometry3::identity(),
             drive: None,
         }
@@ -219,6 +229,9 @@ impl Rig {
             {
                 return Err(RigError::Transform { name });
             }
+        }
+        if !(0.0..=MAX_ALIGNMENT_SIGMA).contains(&self.alignment_sigma) {
+            return Err(RigError::Alignment { sigma: self.alignment_sigma });
         }
         if let Some(Drive { ticks_per_metre, effective_track }) = self.drive {
             for (name, value) in [("ticks_per_metre", ticks_per_metre), ("effective_track_m", effective_track)] {
@@ -270,6 +283,12 @@ pub enum RigError {
         depth: (usize, usize),
         /// Colour (width, height).
         colour: (usize, usize),
+    },
+    /// No standard deviation of images that belong together.
+    #[error("alignment_sigma_px is {sigma}; write 0 to {MAX_ALIGNMENT_SIGMA}, such as 0.2 for a good calibration")]
+    Alignment {
+        /// The value found, pixels.
+        sigma: f64,
     },
     /// Wheels that can't roll.
     #[error("drive: {name} is {value}; it is a positive number (a P3-AT has 138000 counts a metre, 0.588 m of track)")]

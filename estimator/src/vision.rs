@@ -37,9 +37,9 @@ enum Odometry {
 }
 
 impl Odometry {
-    fn new(params: &EstimatorParams) -> Self {
+    fn new(params: &EstimatorParams, rig: &Rig) -> Self {
         match params.variant {
-            Variant::Keyframes => Self::Keyframes(Box::new(Keyframes::new(params))),
+            Variant::Keyframes => Self::Keyframes(Box::new(Keyframes::new(params, rig))),
             Variant::Paper => Self::FrameToFrame(Box::new(FrameToFrame::new(params))),
         }
     }
@@ -133,7 +133,7 @@ impl Vision {
             by_day: FrameBuilder::new(params, rig),
             by_night: NightFrameBuilder::new(params, rig),
             by_bearing: ByBearing::new(params, rig),
-            odometry: Odometry::new(params),
+            odometry: Odometry::new(params, rig),
             pose: CameraPose::start(),
             on_plane: rig.drive.map(|_| VisualOnPlane::default()),
             wheels: VecDeque::new(),

@@ -109,6 +109,7 @@ fn rig() -> Rig {
             registered_to_colour: false,
         },
         colour_from_depth: Isometry3::new(Vector3::new(-0.025, 0.0003, 0.001), Vector3::new(0.002, -0.004, 0.001)),
+        alignment_sigma: 0.0,
         robot_from_colour: Isometry3::from_parts(Translation3::new(0.1, 0.01, 0.6), looking_ahead),
         drive: Some(Drive::default()),
     }

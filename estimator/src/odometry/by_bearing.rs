@@ -61,21 +61,11 @@ pub enum OutdoorMethod {
 }
 
 /// Parameters of odometry without depth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutdoorParams {
     /// What says how far the camera went.
     pub method: OutdoorMethod,
-    /// σ of all disparities together, by what the calibration leaves: a tenth of a pixel of either camera's centre and a
-    /// hundredth of a degree between them make 0.17. Pixels.
-    #[serde(rename = "calibration_sigma_px")]
-    pub calibration_sigma: f64,
-}
-
-impl Default for OutdoorParams {
-    fn default() -> Self {
-        Self { method: OutdoorMethod::default(), calibration_sigma: 0.17 }
-    }
 }
 
 /// σ of how far from where the wheels say a camera may be on either side, metres.
@@ -254,7 +244,7 @@ impl ByBearing {
             DepthPair { rays, inverse_depth }
         });
         let expected = Expected { camera_from_reference: *start, stray: stray(start), along: UNKNOWN };
-        let shared_sigma = stereo.shared_sigma(self.params.outdoor.calibration_sigma);
+        let shared_sigma = stereo.shared_sigma();
         let motion = inverse_depth_motion(&with_depth.collect::<Vec<_>>(), &expected, shared_sigma, MIN_INLIERS)?;
         Ok(motion.shared_by(SHARED))
     }
@@ -367,7 +357,8 @@ mod tests {
         let room = lane();
         let mut rig = dark_room::rig();
         rig.colour_from_depth.translation.x = -0.025;
-        let outdoor = OutdoorParams { method: OutdoorMethod::Stereo, ..OutdoorParams::default() };
+        rig.alignment_sigma = 0.17;
+        let outdoor = OutdoorParams { method: OutdoorMethod::Stereo };
         let mut odometry = ByBearing::new(&EstimatorParams { outdoor, ..EstimatorParams::default() }, &rig);
         assert!(odometry.wants_infrared());
         let mut last = None;

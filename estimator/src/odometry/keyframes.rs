@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use nalgebra::{Isometry3, Matrix6, Translation3, Vector6};
 use serde::{Deserialize, Serialize};
 
+use crate::camera::Rig;
 use crate::estimator::Stage;
 use crate::features::matching::match_features;
 use crate::geometry::adjoint;
@@ -25,10 +26,12 @@ pub struct KeyframeParams {
     pub max_flow: f64,
     /// … or when less than this share of its features is found in the newest one, 0–1.
     pub min_overlap: f64,
-    /// σ of what calibration and rolling shutter bend each step between keyframes by, as a share of the step: of the
-    /// distance gone, and of the turn, which swings the camera about the scene that it looks at. A guess: a recorded
-    /// Kinect whose cameras were aligned to 2 px turns 6 % too little.
+    /// σ of what rolling shutter and the depth's own bow bend each step between keyframes by, as a share of the step: of
+    /// the distance gone, and of the turn, which swings the camera about the scene that it looks at. A guess.
     pub systematic_share: f64,
+    /// The same of the calibration's error, for each radian that the cameras may be out of line. A guess: a recorded
+    /// Kinect whose cameras were aligned to 2 px of 525 turns 6 % too little.
+    pub share_per_misalignment: f64,
     /// After this many frames without motion the odometry gives the old keyframes up and starts from what it sees.
     pub max_lost_frames: usize,
     /// How far the camera may have gone during one lost frame: σ a frame, metres. A guess: 0.5 m/s at 15 Hz.
@@ -45,7 +48,8 @@ impl Default for KeyframeParams {
             window: 2,
             max_flow: 10.0,
             min_overlap: 0.3,
-            systematic_share: 0.06,
+            systematic_share: 0.01,
+            share_per_misalignment: 15.7,
             max_lost_frames: 3,
             lost_translation: 0.033,
             lost_rotation: 0.035,
@@ -75,6 +79,8 @@ struct Keyframe {
 /// Holds each frame against the newest keyframes.
 pub struct Keyframes {
     params: EstimatorParams,
+    /// σ of what bends each step, as a share of it: all that is known of this rig.
+    systematic_share: f64,
     /// Newest last; empty before the first frame and after a [`restart`](Self::restart).
     window: VecDeque<Keyframe>,
     /// Whether there was a frame before.
@@ -88,9 +94,17 @@ pub struct Keyframes {
 
 impl Keyframes {
     /// Nothing seen yet.
-    pub fn new(params: &EstimatorParams) -> Self {
-        let (window, last) = (VecDeque::new(), CameraPose::start());
-        Self { params: params.clone(), window, started: false, last, step: Isometry3::identity(), lost_frames: 0 }
+    pub fn new(params: &EstimatorParams, rig: &Rig) -> Self {
+        let KeyframeParams { systematic_share, share_per_misalignment, .. } = params.keyframes;
+        Self {
+            params: params.clone(),
+            systematic_share: systematic_share.hypot(share_per_misalignment * rig.alignment_sigma / rig.colour.fx),
+            window: VecDeque::new(),
+            started: false,
+            last: CameraPose::start(),
+            step: Isometry3::identity(),
+            lost_frames: 0,
+        }
     }
 
     /// Gives the keyframes up: what comes next shows other images, or another place, and is seen from `pose`.
@@ -146,7 +160,7 @@ impl Keyframes {
             &newest.pose.start_from_camera,
             &motion.reference_from_camera,
             median_depth(&frame),
-            self.params.keyframes.systematic_share,
+            self.systematic_share,
         );
         let before = std::mem::replace(
             &mut self.last,
@@ -347,7 +361,7 @@ mod tests {
     #[test]
     fn standing_still_does_not_drift() {
         let mut world = World::new(1);
-        let mut odometry = Keyframes::new(&EstimatorParams::default());
+        let mut odometry = Keyframes::new(&EstimatorParams::default(), &Rig::kinect_default());
         let mut furthest = 0.0_f64;
         for _ in 0..300 {
             let tracking = odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
@@ -364,9 +378,10 @@ mod tests {
         for seed in 0..runs {
             let mut world = World::new(100 + seed);
             let mut params = EstimatorParams::default();
-            // These cameras are calibrated perfectly.
+            // These cameras are calibrated perfectly, and nothing bends what they see.
             params.keyframes.systematic_share = 0.0;
-            let mut odometry = Keyframes::new(&params);
+            let rig = Rig { alignment_sigma: 0.0, ..Rig::kinect_default() };
+            let mut odometry = Keyframes::new(&params, &rig);
             let mut last = None;
             for step in 0..60 {
                 let along = f64::from(step) / 60.0;
@@ -385,9 +400,25 @@ mod tests {
     }
 
     #[test]
+    fn a_good_calibration_is_believed() {
+        let way = Isometry3::translation(0.3, 0.0, 0.0);
+        // σ along a way of 0.3 m.
+        let sigma_after = |alignment_sigma: f64| {
+            let (mut world, rig) = (World::new(2), Rig { alignment_sigma, ..Rig::kinect_default() });
+            let mut odometry = Keyframes::new(&EstimatorParams::default(), &rig);
+            odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
+            odometry.track(world.seen_from(&way), &mut |_| {}).pose.covariance[(0, 0)].sqrt()
+        };
+        let (uncalibrated, good) = (sigma_after(2.0), sigma_after(0.2));
+        // 6 % of the way; 1.2 %, and what the points' own noise leaves.
+        assert!((0.018..0.020).contains(&uncalibrated), "{uncalibrated}");
+        assert!((0.0035..0.006).contains(&good), "{good}");
+    }
+
+    #[test]
     fn a_covered_lens_is_said_and_survived() {
         let mut world = World::new(3);
-        let mut odometry = Keyframes::new(&EstimatorParams::default());
+        let mut odometry = Keyframes::new(&EstimatorParams::default(), &Rig::kinect_default());
         odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
         let before = odometry.track(world.seen_from(&Isometry3::identity()), &mut |_| {});
         for _ in 0..10 {
@@ -403,7 +434,7 @@ mod tests {
 
     #[test]
     fn a_place_never_seen_before_starts_anew_with_less_trust() {
-        let mut odometry = Keyframes::new(&EstimatorParams::default());
+        let mut odometry = Keyframes::new(&EstimatorParams::default(), &Rig::kinect_default());
         odometry.track(World::new(4).seen_from(&Isometry3::identity()), &mut |_| {});
         let mut elsewhere = World::new(5);
         let lost = EstimatorParams::default().keyframes.max_lost_frames;

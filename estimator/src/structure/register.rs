@@ -153,6 +153,7 @@ mod tests {
                 registered_to_colour: false,
             },
             colour_from_depth: Isometry3::new(Vector3::new(-0.025, 0.001, 0.0), Vector3::new(0.0, 0.01, 0.005)),
+            alignment_sigma: 0.0,
             robot_from_colour: Isometry3::identity(),
             drive: None,
         }

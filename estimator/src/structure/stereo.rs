@@ -29,6 +29,8 @@ pub struct Stereo {
     colour: CameraModel,
     /// The infrared camera's place in the colour camera's frame, metres.
     infrared_at: Vector3<f64>,
+    /// As in [`Rig`].
+    alignment_sigma: f64,
     /// For each pixel of the colour camera, where the infrared one sees what is infinitely far; `None` outside its image.
     places: Vec<Option<(f32, f32)>>,
     matcher: CrossSpectral,
@@ -57,15 +59,21 @@ impl Stereo {
         Some(Self {
             colour,
             infrared_at,
+            alignment_sigma: rig.alignment_sigma,
             places: (0..colour.width * colour.height).map(place).collect(),
             matcher: CrossSpectral::new(CrossSpectralParams::default()),
             band: Band { rows: rows as f32, columns },
         })
     }
 
-    /// σ of the inverse depths by which the calibration's error, `sigma` pixels of disparity, shifts them all; 1/m.
-    pub fn shared_sigma(&self, sigma: f64) -> f64 {
-        sigma / (self.colour.fx * self.infrared_at.x.abs())
+    /// σ of what the calibration's error shifts all inverse depths by, 1/m.
+    pub fn shared_sigma(&self) -> f64 {
+        self.of_disparity(self.alignment_sigma)
+    }
+
+    /// How much inverse depth, 1/m, so many pixels of disparity are.
+    fn of_disparity(&self, pixels: f64) -> f64 {
+        pixels / (self.colour.fx * self.infrared_at.x.abs())
     }
 
     /// The inverse depth at places (column, row) of the colour image, of which the infrared image is of the same instant.
@@ -128,7 +136,7 @@ impl Stereo {
         let (here, there, at) = (ray(found.colour), ray(found.infrared), self.infrared_at);
         // z·here − at ∥ there, along x.
         let value = (here.x - there.x) / (at.x - at.z * there.x);
-        InverseDepth { value, sigma: self.shared_sigma(f64::from(found.sigma)) }
+        InverseDepth { value, sigma: self.of_disparity(f64::from(found.sigma)) }
     }
 }
 

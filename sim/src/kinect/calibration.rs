@@ -121,6 +121,7 @@ impl Calibration {
             colour: self.colour,
             depth: DepthCamera { model: self.infrared, encoding, registered_to_colour: false },
             colour_from_depth: self.colour_from_infrared,
+            alignment_sigma: 0.0,
             robot_from_colour,
         }
     }
@@ -147,6 +148,8 @@ impl Residual {
         }
         let turn = Vector3::from_fn(|_, _| normal()) * self.degrees.to_radians();
         rig.colour_from_depth.rotation = UnitQuaternion::from_scaled_axis(turn) * rig.colour_from_depth.rotation;
+        // Both cameras' centres, and the turn between them.
+        rig.alignment_sigma = (2.0_f64.sqrt() * self.pixels).hypot(rig.colour.fx * self.degrees.to_radians());
         rig
     }
 }
@@ -154,6 +157,7 @@ impl Residual {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Point2;
 
     #[test]
     fn the_nominal_unit_has_the_published_offset() {
@@ -228,7 +232,15 @@ mod tests {
             believed.colour_from_depth.rotation.angle_to(&rig.colour_from_depth.rotation).to_degrees()
         });
         let turn = (turn / 3.0).sqrt();
-        for (expected, found) in [(0.1, centre), (0.1, edge), (0.01, turn)] {
+        // Where something far ahead, seen by the depth camera, is put in the colour image.
+        let column = |believed: &Rig| {
+            let pixel = Point2::new(rig.depth.model.cx, rig.depth.model.cy);
+            let ray = believed.colour_from_depth.rotation * believed.depth.model.ray(&pixel);
+            believed.colour.project(&ray.into()).unwrap().x
+        };
+        let shift = mean_square(&|believed| column(believed) - column(&rig)).sqrt();
+        let said = residual.of(rig.clone(), 0).alignment_sigma;
+        for (expected, found) in [(0.1, centre), (0.1, edge), (0.01, turn), (said, shift)] {
             assert!((found / expected - 1.0).abs() < 0.15, "{found} where {expected} was expected");
         }
     }

@@ -2,6 +2,8 @@
 //!
 //! ```toml
 //! registered = false                       # true: depth images lie in the colour camera's pixels
+//! alignment_sigma_px = 0.2                 # optional: how far, standard deviation, all this puts what one camera sees
+//!                                          # from its place in the other's image; without it 2, as off the shelf
 //!
 //! [colour]
 //! width_px = 640
@@ -40,7 +42,7 @@ use std::path::Path;
 use nalgebra::{Isometry3, Quaternion, Translation3};
 use serde::Deserialize;
 use sunblind_estimator::Rig;
-use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, RigError};
+use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, RigError, UNCALIBRATED_SIGMA};
 use sunblind_estimator::fusion::Drive;
 use toml::Spanned;
 
@@ -145,11 +147,13 @@ fn parse(text: &str) -> Result<Calibration, Fault> {
             registered_to_colour: *file.registered.get_ref(),
         },
         colour_from_depth,
+        alignment_sigma: file.alignment_sigma_px.as_ref().map_or(UNCALIBRATED_SIGMA, |sigma| *sigma.get_ref()),
         robot_from_colour,
         drive: file.drive.as_ref().map(|drive| wheels(drive, body)).transpose()?,
     };
-    rig.validate().map_err(|error| match (&error, &file.drive) {
-        (RigError::Drive { .. }, Some(drive)) => fault(drive.span(), error.to_string()),
+    rig.validate().map_err(|error| match (&error, &file.drive, &file.alignment_sigma_px) {
+        (RigError::Drive { .. }, Some(drive), _) => fault(drive.span(), error.to_string()),
+        (RigError::Alignment { .. }, _, Some(sigma)) => fault(sigma.span(), error.to_string()),
         // What is left to find concerns both cameras: registered depth of another size than colour.
         _ => fault(file.registered.span(), format!("{error}; write registered = false")),
     })?;
@@ -185,6 +189,7 @@ fn latency(delays: &BTreeMap<Sensor, Spanned<f64>>) -> Result<Latency, Fault> {
 #[serde(deny_unknown_fields)]
 struct File {
     registered: Spanned<bool>,
+    alignment_sigma_px: Option<Spanned<f64>>,
     colour: Spanned<Optics>,
     depth: Spanned<Optics>,
     colour_from_depth: Transform,

@@ -43,6 +43,8 @@ pub fn rig() -> Rig {
             encoding: DepthEncoding::Linear { units_per_metre: UNITS_PER_METRE },
             registered_to_colour: false,
         },
+        // Known as it is.
+        alignment_sigma: 0.0,
         colour_from_depth: Isometry3::from_parts(
             Translation3::new(-0.025, 0.0004, -0.0012),
             UnitQuaternion::from_scaled_axis(Vector3::new(0.003, -0.006, 0.001)),

@@ -10,7 +10,7 @@ use crate::odometry::Keyframes;
 fn followed(room: &DarkRoom, way: Vector3<f64>, steps: u32) -> (f64, usize) {
     let (params, rig) = (EstimatorParams::default(), dark_room::rig());
     let mut frames = NightFrameBuilder::new(&params, &rig).unwrap();
-    let mut odometry = Keyframes::new(&params);
+    let mut odometry = Keyframes::new(&params, &rig);
     let (mut lost, mut gone) = (0, Vector3::zeros());
     for step in 0..=steps {
         let truth = Isometry3::from(way * (f64::from(step) / f64::from(steps)));

@@ -76,6 +76,11 @@ fn faults_are_pointed_at() {
         ("fx_px = 527.8", "fx = 527.8", "c:7:1: unknown field `fx`, expected one of `width_px`"),
         ("fx_px = 527.8", "fx_px = 527.8\nunits_per_m = 5000.0", "c:8:15: this belongs into [depth]"),
         ("registered = false", "registered = true\n[", "c:3:2: "),
+        (
+            "registered = false",
+            "registered = false\nalignment_sigma_px = -1",
+            "c:3:22: alignment_sigma_px is -1; write 0 to 50",
+        ),
     ] {
         let found = fault_after(from, to);
         assert!(found.starts_with(expected), "{to:?}:\n  found    {found}\n  expected {expected}");
@@ -99,6 +104,7 @@ fn robot() -> Calibration {
         Isometry3::new(nalgebra::Vector3::new(-0.1, 1e-7, 1.0 / 3.0), nalgebra::Vector3::new(0.1, 0.2, 0.3));
     rig.robot_from_colour =
         Isometry3::new(nalgebra::Vector3::new(0.1, 0.0, 0.6), nalgebra::Vector3::new(-1.2, 1.1, -1.3));
+    rig.alignment_sigma = 0.1 + 0.2;
     rig.drive = Some(Drive { ticks_per_metre: 138_000.7, effective_track: 0.588 });
     let latency = Latency::default().with(Sensor::Depth, 2.0 / 30.0).with(Sensor::Wheels, 1e-9);
     Calibration { rig, body: Body::Robot, latency }

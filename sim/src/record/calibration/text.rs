@@ -13,7 +13,7 @@ impl fmt::Display for Calibration {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Self { rig, body, latency } = self;
         writeln!(out, "registered = {}", rig.depth.registered_to_colour)?;
-        writeln!(out, "\n[colour]")?;
+        writeln!(out, "alignment_sigma_px = {:?}\n\n[colour]", rig.alignment_sigma)?;
         camera(out, &rig.colour)?;
         writeln!(out, "\n[depth]")?;
         camera(out, &rig.depth.model)?;
