@@ -152,8 +152,7 @@ impl DepthCamera {
     }
 }
 
-/// What [`Rig::alignment_sigma`] is of a Kinect that nobody calibrated, pixels: so far out was a recorded one whose images its
-/// driver had registered.
+/// What [`Rig::alignment_sigma`] is where a calibration does not say it, pixels. A guess after a recorded Kinect.
 pub const UNCALIBRATED_SIGMA: f64 = 2.0;
 /// Cameras further out than this show each other nothing, pixels. A guess.
 const MAX_ALIGNMENT_SIGMA: f64 = 50.0;

@@ -28,7 +28,8 @@ Examples:
 DATASET is a folder in the TUM RGB-D layout:
   rgb.txt, depth.txt    `timestamp filename` a line; seconds; 8-bit colour, 16-bit grey depth, PNG or JPEG
   groundtruth.txt       optional; `timestamp tx ty tz qx qy qz qw` a line; seconds, metres, unit quaternion
-  calibration.toml      optional; lengths in px and m; without it a Kinect's defaults are assumed
+  calibration.toml      optional; lengths in px and m; without it a Kinect's defaults are assumed, 2 px out of line; the
+                        better yours is (`alignment_sigma_px`), the more the filters rely on what is seen
   odometry.txt          optional, with [drive] in calibration.toml; `timestamp left_ticks right_ticks` a line
   gyro.txt              optional; `timestamp wx wy wz` a line; rad/s in the robot's frame
   ir.txt                optional; `timestamp filename` a line; 16-bit grey with 10-bit values

@@ -41,3 +41,23 @@ fn a_metre_along_a_flat_wall_is_a_metre() {
         }
     }
 }
+
+#[test]
+fn slopes_that_noise_makes_up_are_in_the_covariance() {
+    let room = DarkRoom {
+        walls: vec![Wall { normal: Vector3::z_axis().into_inner(), distance: 2.5, is_textured: true }],
+        ambient: 0.0,
+    };
+    // However good the calibration.
+    let (params, rig) = (EstimatorParams::default(), Rig { alignment_sigma: 0.0, ..dark_room::rig() });
+    let mut frames = NightFrameBuilder::new(&params, &rig).unwrap();
+    let mut odometry = Keyframes::new(&params, &rig);
+    let mut track = |aside: f64| {
+        let seen = room.seen_from(&Isometry3::translation(aside, 0.0, 0.0), 1);
+        odometry.track(frames.build(&seen.infrared, &seen.depth, &mut |_| {}), &mut |_| {})
+    };
+    track(0.0);
+    let sigma = track(0.05).pose.covariance[(0, 0)].sqrt();
+    // 6 % of 5 cm, and a little for what a pixel's brightness leaves.
+    assert!((0.003..0.0045).contains(&sigma), "{sigma}");
+}
