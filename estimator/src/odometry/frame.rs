@@ -29,6 +29,9 @@ pub struct FrameView {
     pub colour_from_camera: Isometry3<f64>,
     /// Whether all pixels are asked even where features say how the camera moved.
     pub always: bool,
+    /// σ of what alignment by all pixels errs by besides, as a share of the step: slopes that depth's noise makes of a flat
+    /// wall move with the camera and say that nothing moved.
+    pub systematic_share: f64,
 }
 
 impl FrameView {
@@ -41,6 +44,9 @@ impl FrameView {
 
 /// Share of a view's pixels that must have depth, 0–1. A guess.
 const LEAST_FILLED: f64 = 0.3;
+
+/// By day all pixels are asked where there is next to nothing but a bare wall. A guess.
+const BARE_SHARE: f64 = 0.2;
 
 /// Levels of shade that brightness grows by when it grows e-fold: a change of exposure is the same offset everywhere, and
 /// a tenth more is well above noise.
@@ -101,6 +107,7 @@ impl FrameBuilder {
             view: views.view(&shade(&luma), &registered),
             colour_from_camera: Isometry3::identity(),
             always: false,
+            systematic_share: BARE_SHARE,
         });
         Frame { features, landmarks, view }
     }

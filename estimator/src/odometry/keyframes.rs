@@ -60,10 +60,6 @@ impl Default for KeyframeParams {
 /// Least share of a keyframe's pixels that must be seen in a frame, or that becomes a keyframe itself. A guess.
 const LEAST_OVERLAP: f64 = 0.6;
 
-/// σ of what alignment by all pixels errs by besides, as a share of the step: slopes that depth's noise makes of a flat wall
-/// move with the camera and say that nothing moved. A guess.
-const DENSE_SHARE: f64 = 0.06;
-
 /// Fewer features that agree may agree by chance or lie in one corner of the image, as before a bare wall with a door beside
 /// it: then all pixels are asked. A guess.
 const FEW: usize = 60;
@@ -160,11 +156,12 @@ impl Keyframes {
             track.inlier = inlier;
         }
         let newest = &self.window[self.window.len() - 1];
+        let by_pixels = dense.as_ref().and(frame.view.as_ref()).map_or(0.0, |view| view.systematic_share);
         let systematic = systematic_covariance(
             &newest.pose.start_from_camera,
             &motion.reference_from_camera,
             median_depth(&frame),
-            if dense.is_some() { self.systematic_share.hypot(DENSE_SHARE) } else { self.systematic_share },
+            self.systematic_share.hypot(by_pixels),
         );
         let before = std::mem::replace(
             &mut self.last,

@@ -12,6 +12,9 @@ use super::{Frame, FrameView, depth_noise, view_maker};
 /// Least scale of a feature, pixels. Smaller ones lie on what is left of single dots, which are fixed to the sensor.
 const MIN_SCALE: f32 = 2.8;
 
+/// [`FrameView::systematic_share`] in the dark, where most of what is asked has an albedo to hold on to. A guess.
+const ALBEDO_SHARE: f64 = 0.06;
+
 /// Makes frames of infrared and depth images.
 pub struct NightFrameBuilder {
     camera: AlbedoCamera,
@@ -49,6 +52,7 @@ impl NightFrameBuilder {
             view: views.view(&albedo.levels, &albedo.depth),
             colour_from_camera: self.rig.colour_from_depth,
             always: true,
+            systematic_share: ALBEDO_SHARE,
         });
         Frame { features, landmarks, view }
     }
