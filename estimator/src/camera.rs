@@ -154,8 +154,8 @@ impl DepthCamera {
 
 /// What [`Rig::alignment_sigma`] is where a calibration does not say it, pixels. A guess after a recorded Kinect.
 pub const UNCALIBRATED_SIGMA: f64 = 2.0;
-/// Cameras further out than this show each other nothing, pixels. A guess.
-const MAX_ALIGNMENT_SIGMA: f64 = 50.0;
+/// Largest [`Rig::alignment_sigma`], pixels: cameras further out show each other nothing. A guess.
+pub const MAX_ALIGNMENT_SIGMA: f64 = 50.0;
 
 /// What the estimator believes of the sensors on the robot. The true calibration is another object, elsewhere.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

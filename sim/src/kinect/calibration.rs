@@ -6,7 +6,7 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
-use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, Rig};
+use sunblind_estimator::camera::{CameraModel, DepthCamera, DepthEncoding, Distortion, MAX_ALIGNMENT_SIGMA, Rig};
 
 use super::matcher::NO_DEPTH;
 use super::projector::PITCH;
@@ -149,7 +149,8 @@ impl Residual {
         let turn = Vector3::from_fn(|_, _| normal()) * self.degrees.to_radians();
         rig.colour_from_depth.rotation = UnitQuaternion::from_scaled_axis(turn) * rig.colour_from_depth.rotation;
         // Both cameras' centres, and the turn between them.
-        rig.alignment_sigma = (2.0_f64.sqrt() * self.pixels).hypot(rig.colour.fx * self.degrees.to_radians());
+        let sigma = (2.0_f64.sqrt() * self.pixels).hypot(rig.colour.fx * self.degrees.to_radians());
+        rig.alignment_sigma = sigma.min(MAX_ALIGNMENT_SIGMA);
         rig
     }
 }
@@ -243,6 +244,13 @@ mod tests {
         for (expected, found) in [(0.1, centre), (0.1, edge), (0.01, turn), (said, shift)] {
             assert!((found / expected - 1.0).abs() < 0.15, "{found} where {expected} was expected");
         }
+    }
+
+    #[test]
+    fn a_rig_that_is_far_out_is_still_one_the_estimator_accepts() {
+        // As much as a scenario may ask for.
+        let residual = Residual { pixels: 50.0, degrees: 5.0 };
+        assert_eq!(residual.of(Calibration::nominal().rig(Isometry3::identity()), 1).validate(), Ok(()));
     }
 
     #[test]
