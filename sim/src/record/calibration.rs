@@ -151,11 +151,17 @@ fn parse(text: &str) -> Result<Calibration, Fault> {
         robot_from_colour,
         drive: file.drive.as_ref().map(|drive| wheels(drive, body)).transpose()?,
     };
-    rig.validate().map_err(|error| match (&error, &file.drive, &file.alignment_sigma_px) {
-        (RigError::Drive { .. }, Some(drive), _) => fault(drive.span(), error.to_string()),
-        (RigError::Alignment { .. }, _, Some(sigma)) => fault(sigma.span(), error.to_string()),
-        // What is left to find concerns both cameras: registered depth of another size than colour.
-        _ => fault(file.registered.span(), format!("{error}; write registered = false")),
+    rig.validate().map_err(|error| {
+        let place = match error {
+            RigError::Drive { .. } => file.drive.as_ref().map(Spanned::span),
+            RigError::Alignment { .. } => file.alignment_sigma_px.as_ref().map(Spanned::span),
+            _ => None,
+        };
+        match place {
+            Some(place) => fault(place, error.to_string()),
+            // What is left to find concerns both cameras: registered depth of another size than colour.
+            None => fault(file.registered.span(), format!("{error}; write registered = false")),
+        }
     })?;
     Ok(Calibration { rig, body, latency: latency(&file.latency)? })
 }

@@ -13,7 +13,8 @@ impl fmt::Display for Calibration {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         let Self { rig, body, latency } = self;
         writeln!(out, "registered = {}", rig.depth.registered_to_colour)?;
-        writeln!(out, "alignment_sigma_px = {:?}\n\n[colour]", rig.alignment_sigma)?;
+        writeln!(out, "alignment_sigma_px = {:?}", rig.alignment_sigma)?;
+        writeln!(out, "\n[colour]")?;
         camera(out, &rig.colour)?;
         writeln!(out, "\n[depth]")?;
         camera(out, &rig.depth.model)?;
