@@ -147,6 +147,9 @@ mod tests {
         for _ in 0..gate.max_refusals {
             assert_eq!(ekf.update_pose(&far), Outcome::Gated);
         }
+        // Both are as sure, and one is wrong: half way, and as unsure as that. The next time it is let in as it is.
+        assert_eq!(ekf.update_pose(&far), Outcome::Fused);
+        assert!((ekf.estimate().pose.x - 0.5).abs() < 1e-9, "{:?}", ekf.estimate());
         assert_eq!(ekf.update_pose(&far), Outcome::Fused);
         assert!((ekf.estimate().pose.x - 1.0).abs() < 0.01, "{:?}", ekf.estimate());
     }

@@ -177,7 +177,10 @@ impl<G: Gain> PoseFilter<G> {
         match self.gate.judge(squared, repeats) {
             Verdict::Admit => {}
             Verdict::Refuse => return Outcome::Gated,
-            Verdict::AdmitDoubting(factor) => seen.predicted *= factor,
+            Verdict::AdmitDoubting(factor) => {
+                seen.predicted *= factor;
+                seen.noise *= factor;
+            }
         }
         let Some((gain, expected)) = gains(&self.gain, seen) else { return Outcome::Unusable };
         // The Joseph form holds for any gain and stays positive semi-definite; Eq. 11 is its special case for the

@@ -11,9 +11,10 @@ pub struct GateParams {
     /// Largest squared Mahalanobis distance of an innovation; χ² of 99 % is 11.34 for a pose, 9.21 for range and
     /// bearing.
     pub limit: f64,
-    /// After so many refusals in a row that agree with each other it is the filter that is taken to be wrong: until one
-    /// passes or disagrees, what is measured is let in, and the filter's covariance is raised until it fits. Without this
-    /// a gate locks a lost filter out for good. What is wrong in another way each time says nothing against the filter.
+    /// After so many refusals in a row that agree with each other one of the two is wrong, and nothing says which: until one
+    /// passes or disagrees, what is measured is let in, and both covariances are raised until it fits. Without this a gate
+    /// locks a lost filter out for good; a filter that alone were doubted would leap to whatever is wrong for long. What is
+    /// wrong in another way each time says nothing against the filter.
     pub max_refusals: usize,
 }
 
@@ -37,7 +38,7 @@ impl GateParams {
 pub(super) enum Verdict {
     Admit,
     Refuse,
-    /// Admit, the filter's covariance times this, above 1.
+    /// Admit, the filter's covariance and the measurement's times this, above 1.
     AdmitDoubting(f64),
 }
 
@@ -75,7 +76,7 @@ impl Gate {
         if repeats.is_none() {
             self.refusals = 0;
         }
-        // Scaled by the distance's excess, a covariance that makes up most of the innovation's just fits.
+        // By this the two covariances, and so the innovation's, are as large as just to fit.
         Verdict::AdmitDoubting(squared / self.params.limit)
     }
 }
