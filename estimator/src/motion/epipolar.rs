@@ -85,6 +85,10 @@ const MAX_DISTANCE: f64 = 3.0;
 /// The least misfit, of the assumed variance: pairs that agree by chance are not as good as that. Of features along a lane
 /// in the sun a tenth is usual. A guess.
 const LEAST_MISFIT: f64 = 0.05;
+/// How far, in σ, a motion may be from the wheels' if its pairs are off by as much as was assumed; if by a tenth of that, as
+/// along a lane, three times as far, since then it is the robot that skids. What is further, and fits badly, is made of
+/// mismatches, as on the slats of a roller shutter. A guess, made by looking at what such motions were off by.
+const MAX_STRAY: f64 = 2.5;
 /// Nothing nearer is seen, metres: a Kinect on a robot looks ahead from above its wheels.
 const NEAREST: f64 = 0.3;
 /// σ along the way gone, metres: nothing is known of it.
@@ -96,13 +100,18 @@ const UNKNOWN: f64 = 3.0;
 /// What the pairs are worth beside the wheels they say themselves: by how far they are off in a first fit.
 ///
 /// # Errors
-/// [`MotionFailure::TooFewInliers`] or [`MotionFailure::DegenerateGeometry`].
+/// [`MotionFailure::TooFewInliers`], [`MotionFailure::AgainstTheWheels`] or [`MotionFailure::DegenerateGeometry`].
 pub fn epipolar_motion(
     pairs: &[RayPair],
     rolled: &Rolled,
     min_inliers: usize,
 ) -> Result<EpipolarMotion, MotionFailure> {
     let (first, misfit) = fit(pairs, rolled, min_inliers)?;
+    let camera = |motion: &Isometry3<f64>| motion.inverse().translation.vector;
+    let strayed = (camera(&first.camera_from_reference) - camera(&rolled.camera_from_reference)).norm() / rolled.stray;
+    if strayed * misfit.sqrt() > MAX_STRAY {
+        return Err(MotionFailure::AgainstTheWheels { sigmas: strayed });
+    }
     if misfit >= 1.0 {
         return Ok(first);
     }
@@ -285,6 +294,28 @@ mod tests {
             let (off, share) = found(turn);
             assert!((off / share - seen).abs() < 0.1 * seen.abs(), "{turn}: {off} {share} {seen}");
         }
+    }
+
+    #[test]
+    fn what_fits_badly_and_contradicts_the_wheels_is_refused() {
+        // As slats of a roller shutter that are taken for their neighbours: they agree, but with another way aside.
+        let slats = |shift: f64, blur: f64| {
+            let mut pairs = pairs(150, 0, 3);
+            let aside = Isometry3::translation(shift, 0.0, 0.0) * truth();
+            for (index, pair) in pairs.iter_mut().enumerate() {
+                let depth = 1.0 + 0.07 * index as f64;
+                let seen = aside * nalgebra::Point3::from(pair.reference * depth);
+                let off = blur * pair.sigma * if index % 2 == 0 { 1.0 } else { -1.0 };
+                pair.camera = seen.coords / seen.z + Vector3::new(0.0, off, 0.0);
+            }
+            let wheels = Rolled { turn: 1e-4, camera_from_reference: truth(), ..by_wheels() };
+            epipolar_motion(&pairs, &wheels, 30)
+        };
+        let found = slats(0.08, 1.5);
+        assert!(matches!(found, Err(MotionFailure::AgainstTheWheels { .. })), "{found:?}");
+        // A robot that skids as far is believed if all agree, and so is what fits badly but goes the robot's way.
+        assert!(slats(0.05, 0.1).is_ok(), "{:?}", slats(0.05, 0.1));
+        assert!(slats(0.0, 1.5).is_ok(), "{:?}", slats(0.0, 1.5));
     }
 
     #[test]

@@ -87,6 +87,12 @@ pub enum MotionFailure {
         /// Standard deviation along the weakest direction at the points' distance, metres.
         sigma: f64,
     },
+    /// The motion that explains the matches is far from the wheels', and explains them badly.
+    #[error("a motion {sigmas:.1} σ from the wheels', of matches that hardly agree")]
+    AgainstTheWheels {
+        /// How far it is from where the wheels say, in the σ of what robots skid by.
+        sigmas: f64,
+    },
     /// The first frame of its kind after a change of mode.
     #[error("no earlier frame of the mode's images")]
     NoReference,
