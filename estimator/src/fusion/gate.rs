@@ -19,9 +19,9 @@ pub struct GateParams {
 }
 
 impl Default for GateParams {
-    /// The limit is for poses, of which visual odometry's covariances are up to half too small: one of 11.34 keeps out what
-    /// is a little off until it is off by centimetres, and then lets it in at once. On the P3-AT it is the wheels that slip: a
-    /// gate without a way back would keep out what notices it.
+    /// The limit is for poses, of which visual odometry's covariances may be half of what they should be: one of 11.34 keeps
+    /// out what is a little off until it is off by centimetres, and then lets it in at once. On the P3-AT it is the wheels
+    /// that slip: a gate without a way back would keep out what notices it.
     fn default() -> Self {
         Self { enabled: true, limit: 25.0, max_refusals: 5 }
     }

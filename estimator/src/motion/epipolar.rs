@@ -47,6 +47,13 @@ pub struct Rolled {
     pub turn: f64,
 }
 
+impl Rolled {
+    /// How far a motion takes the camera from where the wheels have it, in the reference's frame, metres.
+    fn strayed(&self, camera_from_reference: &Isometry3<f64>) -> Vector3<f64> {
+        camera_from_reference.inverse().translation.vector - self.camera_from_reference.inverse().translation.vector
+    }
+}
+
 /// A motion whose length was given.
 #[derive(Clone, Debug)]
 pub struct EpipolarMotion {
@@ -107,8 +114,7 @@ pub fn epipolar_motion(
     min_inliers: usize,
 ) -> Result<EpipolarMotion, MotionFailure> {
     let (first, misfit) = fit(pairs, rolled, min_inliers)?;
-    let camera = |motion: &Isometry3<f64>| motion.inverse().translation.vector;
-    let strayed = (camera(&first.camera_from_reference) - camera(&rolled.camera_from_reference)).norm() / rolled.stray;
+    let strayed = rolled.strayed(&first.camera_from_reference).norm() / rolled.stray;
     if strayed * misfit.sqrt() > MAX_STRAY {
         return Err(MotionFailure::AgainstTheWheels { sigmas: strayed });
     }
@@ -199,15 +205,14 @@ fn normal(pairs: &[RayPair], rolled: &Rolled, motion: &Isometry3<f64>, cauchy: f
         gradient.axpy(weight * distance, &row, 1.0);
     }
     // The camera lies at −Rᵀt in the reference's frame, where ρ moves it by −Rᵀρ.
-    let expected = &rolled.camera_from_reference;
-    let strayed = motion.inverse().translation.vector - expected.inverse().translation.vector;
+    let strayed = rolled.strayed(motion);
     let information = rolled.stray.powi(-2);
     for axis in 0..3 {
         hessian[(axis, axis)] += information;
     }
     let mut shift = gradient.fixed_rows_mut::<3>(0);
     shift -= motion.rotation * strayed * information;
-    let turned = rolled.down.dot(&(motion.rotation * expected.rotation.inverse()).scaled_axis());
+    let turned = rolled.down.dot(&(motion.rotation * rolled.camera_from_reference.rotation.inverse()).scaled_axis());
     let row = Vector6::new(0.0, 0.0, 0.0, rolled.down.x, rolled.down.y, rolled.down.z) / rolled.turn;
     hessian.ger(1.0, &row, &row, 1.0);
     gradient.axpy(turned / rolled.turn, &row, 1.0);
