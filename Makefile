@@ -2,8 +2,10 @@
 
 OUT := out
 SUNBLIND := target/release/sunblind
+# The canary must fail, and nobody drives through the textured room.
+DRIVEN := $(filter-out %/canary.toml %/textured_room.toml,$(wildcard scenarios/*.toml scenarios/modes/*.toml))
 
-.PHONY: help build demo test lint bench gallery clean
+.PHONY: help build demo test lint scenarios bench gallery clean
 
 help: ## what there is
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /\1\t/' | expand -t 10
@@ -22,6 +24,9 @@ test: build ## formatting and every test
 
 lint: ## clippy, warnings are errors
 	cargo clippy --release --workspace --all-targets -- -D warnings
+
+scenarios: build ## every scenario in its full form, judged; the tests only run short forms
+	$(SUNBLIND) run $(DRIVEN) --out $(OUT)/scenarios
 
 bench: build ## times a frame, simulated and estimated in each mode, and SURF beside dlib's where that is built (needs recorded data)
 	cargo bench -p sunblind-sim --bench render

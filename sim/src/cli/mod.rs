@@ -85,6 +85,8 @@ enum Failure {
     Record(#[from] RecordError),
     #[error(transparent)]
     Replay(#[from] ReplayError),
+    #[error("two scenarios are called {name}, and their results would go to one folder; run them one by one")]
+    SameName { name: String },
     #[error("{missed} expectation{} missed", if *missed == 1 { " was" } else { "s were" })]
     Missed { missed: usize },
     #[error(transparent)]

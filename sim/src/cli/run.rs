@@ -46,12 +46,24 @@ impl Run {
     pub fn run(&self) -> Result<(), Failure> {
         // All are read before the first is driven: a slip of the pen should not cost an hour.
         let loaded: Vec<_> = self.scenarios.iter().map(|file| self.load(file)).collect::<Result<_, _>>()?;
-        let mut missed = 0;
-        for (file, (source, scenario)) in self.scenarios.iter().zip(&loaded) {
-            let name = file.file_stem().map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned());
-            missed += run(&name, source, scenario, &self.out_of(&name))?;
+        let names: Vec<_> = self.scenarios.iter().map(|file| name_of(file)).collect();
+        if let Some(name) = names.iter().enumerate().find_map(|(at, name)| names[..at].contains(name).then_some(name)) {
+            return Err(Failure::SameName { name: name.clone() });
         }
-        if missed == 0 { Ok(()) } else { Err(Failure::Missed { missed }) }
+        let mut missed = 0;
+        let mut missed_by = Vec::new();
+        for (name, (source, scenario)) in names.iter().zip(&loaded) {
+            let here = run(name, source, scenario, &self.out_of(name))?;
+            missed += here;
+            missed_by.extend((here > 0).then_some(name.as_str()));
+        }
+        if missed == 0 {
+            return Ok(());
+        }
+        if names.len() > 1 {
+            answer(&format!("\nmissed: {}", missed_by.join(", ")));
+        }
+        Err(Failure::Missed { missed })
     }
 
     fn load(&self, file: &Path) -> Result<(Source, Scenario), Failure> {
@@ -73,6 +85,10 @@ impl Run {
             Some(out) => out.join(name),
         }
     }
+}
+
+fn name_of(file: &Path) -> String {
+    file.file_stem().map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// Drives one; how many of its expectations were missed.
