@@ -1,5 +1,6 @@
 //! Matching of descriptors: nearest neighbour, ratio test, mutual choice.
 
+use pulp::{Arch, NullaryFnOnce};
 use serde::{Deserialize, Serialize};
 
 use super::surf::Feature;
@@ -52,22 +53,7 @@ impl Nearest {
 /// Pairs of `from` and `to` that are each other's nearest, pass the ratio test and share the sign of the
 /// Laplacian (Bay et al. §4.3); ordered by `from`.
 pub fn match_features(from: &[Feature], to: &[Feature], params: &MatchParams) -> Vec<Match> {
-    let mut forward = vec![Nearest::NONE; from.len()];
-    let mut backward = vec![Nearest::NONE; to.len()];
-    for sign in [false, true] {
-        let of_sign = |features: &[Feature]| -> Vec<usize> {
-            (0..features.len()).filter(|&i| features[i].laplacian_positive == sign).collect()
-        };
-        let (from_indices, to_indices) = (of_sign(from), of_sign(to));
-        for &i in &from_indices {
-            for &j in &to_indices {
-                // Unit vectors: the nearest has the largest dot product.
-                let similarity = dot(&from[i].descriptor, &to[j].descriptor);
-                forward[i].offer(similarity, j);
-                backward[j].offer(similarity, i);
-            }
-        }
-    }
+    let (forward, backward) = Arch::new().dispatch(Comparison { from, to });
     let distance = |similarity: f32| (2.0 - 2.0 * similarity).max(0.0).sqrt();
     forward
         .iter()
@@ -82,15 +68,96 @@ pub fn match_features(from: &[Feature], to: &[Feature], params: &MatchParams) ->
         .collect()
 }
 
-/// Dot product in eight running sums: a fixed order of additions that the compiler can still vectorise.
-fn dot(a: &[f32; 64], b: &[f32; 64]) -> f32 {
-    let mut sums = [0.0_f32; 8];
-    for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
+/// Every feature of `from` held against every one of `to`, and the nearest of each. A type, and not a closure: what the
+/// processor is to run must be inlined whole, and a closure's call is not.
+struct Comparison<'a> {
+    from: &'a [Feature],
+    to: &'a [Feature],
+}
+
+impl NullaryFnOnce for Comparison<'_> {
+    type Output = (Vec<Nearest>, Vec<Nearest>);
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let Self { from, to } = self;
+        let mut forward = vec![Nearest::NONE; from.len()];
+        let mut backward = vec![Nearest::NONE; to.len()];
+        for sign in [false, true] {
+            let of_sign = |features: &[Feature]| -> Vec<usize> {
+                (0..features.len()).filter(|&i| features[i].laplacian_positive == sign).collect()
+            };
+            let (from_indices, to_indices) = (of_sign(from), of_sign(to));
+            let mut blocks: Vec<Block> = to_indices.chunks(LANES).map(|indices| Block::of(to, indices)).collect();
+            for &i in &from_indices {
+                for (indices, block) in to_indices.chunks(LANES).zip(&mut blocks) {
+                    // Unit vectors: the nearest has the largest dot product.
+                    let similarities = block.dot(&from[i].descriptor);
+                    // Of most pairs neither is near to the other, and then it's enough to know that of all at once.
+                    if exceeds(&similarities, &[forward[i].second; LANES]) || exceeds(&similarities, &block.second) {
+                        for (lane, &j) in indices.iter().enumerate() {
+                            forward[i].offer(similarities[lane], j);
+                            backward[j].offer(similarities[lane], i);
+                            block.second[lane] = backward[j].second;
+                        }
+                    }
+                }
+            }
         }
+        (forward, backward)
     }
-    sums.iter().sum()
+}
+
+/// Descriptors compared at once.
+const LANES: usize = 8;
+
+/// As many descriptors beside each other.
+struct Block {
+    /// Their numbers, those of one place together.
+    numbers: [[f32; LANES]; 64],
+    /// Similarity of each one's second nearest so far.
+    second: [f32; LANES],
+}
+
+impl Block {
+    fn of(features: &[Feature], indices: &[usize]) -> Self {
+        // Nothing is nearer than nobody's neighbours.
+        let mut block = Self { numbers: [[0.0; LANES]; 64], second: [f32::INFINITY; LANES] };
+        for (lane, &index) in indices.iter().enumerate() {
+            block.second[lane] = f32::NEG_INFINITY;
+            block.numbers.iter_mut().zip(&features[index].descriptor).for_each(|(to, &from)| to[lane] = from);
+        }
+        block
+    }
+
+    /// Dot products with `descriptor`, each in eight running sums: one order of additions whatever the processor.
+    #[inline(always)]
+    fn dot(&self, descriptor: &[f32; 64]) -> [f32; LANES] {
+        let mut total = [0.0; LANES];
+        for first in 0..8 {
+            let mut sum = [0.0_f32; LANES];
+            for number in 0..8 {
+                let (a, b) = (descriptor[first + 8 * number], &self.numbers[first + 8 * number]);
+                for lane in 0..LANES {
+                    sum[lane] += a * b[lane];
+                }
+            }
+            for lane in 0..LANES {
+                total[lane] += sum[lane];
+            }
+        }
+        total
+    }
+}
+
+/// Whether any of `values` is more than the bound beside it.
+#[inline(always)]
+fn exceeds(values: &[f32; LANES], bounds: &[f32; LANES]) -> bool {
+    let mut any = false;
+    for lane in 0..LANES {
+        any |= values[lane] > bounds[lane];
+    }
+    any
 }
 
 #[cfg(test)]

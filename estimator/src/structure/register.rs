@@ -1,6 +1,7 @@
 //! Depth carried into the colour camera's pixels by the believed calibration.
 
 use nalgebra::{Matrix3, Point2, Vector3};
+use pulp::{Arch, NullaryFnOnce};
 
 use crate::camera::{DepthCamera, Rig};
 use crate::image::{DepthImage, Image};
@@ -10,8 +11,8 @@ pub type RegisteredDepth = Image<f32>;
 
 /// What of the calibration can be worked out once: a ray for each depth pixel, a depth for each value.
 pub struct Registration {
-    /// colour R_depth · ray through each depth pixel (z = 1 in the depth frame).
-    rays: Vec<Vector3<f32>>,
+    /// colour R_depth · ray through each depth pixel (z = 1 in the depth frame): all x, all y, all z.
+    rays: [Vec<f32>; 3],
     /// Origin of the depth frame, seen from the colour camera; metres.
     offset: Vector3<f32>,
     /// Metres by depth value; 0 = no value.
@@ -24,16 +25,12 @@ impl Registration {
     pub fn new(rig: &Rig) -> Self {
         let rotation: Matrix3<f64> = *rig.colour_from_depth.rotation.to_rotation_matrix().matrix();
         let DepthCamera { model, registered_to_colour, .. } = rig.depth;
-        let rays = if registered_to_colour {
-            Vec::new()
-        } else {
-            (0..model.width * model.height)
-                .map(|index| {
-                    let pixel = Point2::new((index % model.width) as f64, (index / model.width) as f64);
-                    (rotation * model.ray(&pixel)).cast()
-                })
-                .collect()
-        };
+        let mut rays: [Vec<f32>; 3] = Default::default();
+        for index in 0..if registered_to_colour { 0 } else { model.width * model.height } {
+            let pixel = Point2::new((index % model.width) as f64, (index / model.width) as f64);
+            let ray = rotation * model.ray(&pixel);
+            rays.iter_mut().zip(ray.iter()).for_each(|(rays, &along)| rays.push(along as f32));
+        }
         Self {
             rays,
             offset: rig.colour_from_depth.translation.vector.cast(),
@@ -51,37 +48,70 @@ impl Registration {
             return Image::from_pixels(depth.width(), depth.height(), pixels).expect("same size in and out");
         }
         let mut registered = RegisteredDepth::filled(colour.width, colour.height, 0.0);
+        Arch::new().dispatch(Splat { registration: self, depth, registered: &mut registered });
+        registered
+    }
+}
+
+/// Every depth pixel into the colour pixels that it covers. A type, and not a closure: what the processor is to run must
+/// be inlined whole, and a closure's call is not.
+struct Splat<'a> {
+    registration: &'a Registration,
+    depth: &'a DepthImage,
+    registered: &'a mut RegisteredDepth,
+}
+
+impl NullaryFnOnce for Splat<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Registration { rays, offset, metres, rig } = self.registration;
+        let lens = Lens::new(rig);
         // A depth pixel covers this many colour pixels; one more closes the gaps between neighbours.
-        let reach_x = splat_reach(colour.fx / self.rig.depth.model.fx);
-        let reach_y = splat_reach(colour.fy / self.rig.depth.model.fy);
-        let lens = Lens::new(&self.rig);
-        for (&value, ray) in depth.pixels().iter().zip(&self.rays) {
-            let z_depth = self.metres[usize::from(value)];
-            if z_depth == 0.0 {
-                continue;
+        let reach_x = splat_reach(rig.colour.fx / rig.depth.model.fx);
+        let reach_y = splat_reach(rig.colour.fy / rig.depth.model.fy);
+        let (width, height) = (self.registered.width(), self.registered.height() as i32);
+        let pixels = self.registered.pixels_mut();
+        // A row's footprints first, many at a time, and then who hides whom, one by one.
+        let row = self.depth.width();
+        let mut depths = vec![0.0_f32; row];
+        let [mut lefts, mut rights, mut tops, mut bottoms] = [(); 4].map(|()| vec![0_i32; row]);
+        for (y, values) in self.depth.pixels().chunks_exact(row).enumerate() {
+            depths.iter_mut().zip(values).for_each(|(z, &value)| *z = metres[usize::from(value)]);
+            let [rays_x, rays_y, rays_z] = rays.each_ref().map(|along| &along[y * row..][..row]);
+            let z = &mut depths[..row];
+            let (lefts, rights) = (&mut lefts[..row], &mut rights[..row]);
+            let (tops, bottoms) = (&mut tops[..row], &mut bottoms[..row]);
+            for x in 0..row {
+                let z_depth = z[x];
+                let point = Vector3::new(rays_x[x] * z_depth, rays_y[x] * z_depth, rays_z[x] * z_depth) + offset;
+                let (u, v) = lens.project(point);
+                z[x] = if z_depth == 0.0 { 0.0 } else { point.z };
+                (lefts[x], rights[x]) = (floor(u - reach_x) + 1, floor(u + reach_x));
+                (tops[x], bottoms[x]) = (floor(v - reach_y) + 1, floor(v + reach_y));
             }
-            let point = ray * z_depth + self.offset;
-            if point.z <= 0.0 {
-                continue;
-            }
-            let (u, v) = lens.project(point);
-            let (left, right) = (floor(u - reach_x) + 1, floor(u + reach_x));
-            let (top, bottom) = (floor(v - reach_y) + 1, floor(v + reach_y));
-            for y in top.max(0)..=bottom.min(colour.height as i32 - 1) {
-                for x in left.max(0)..=right.min(colour.width as i32 - 1) {
-                    let z = &mut registered.pixels_mut()[y as usize * colour.width + x as usize];
-                    if *z == 0.0 || point.z < *z {
-                        *z = point.z;
+            for x in 0..row {
+                let (left, right) = (lefts[x].max(0), rights[x].min(width as i32 - 1));
+                if z[x] <= 0.0 || left > right {
+                    continue;
+                }
+                for y in tops[x].max(0)..=bottoms[x].min(height - 1) {
+                    let start = y as usize * width;
+                    for nearest in &mut pixels[start + left as usize..=start + right as usize] {
+                        if *nearest == 0.0 || z[x] < *nearest {
+                            *nearest = z[x];
+                        }
                     }
                 }
             }
         }
-        registered
     }
 }
 
 /// Floor by truncation, far quicker than `f32::floor` where the processor lacks an instruction for it. Values below
 /// −4096, which no pixel has, come out too large, and those beyond the range of i32 saturate.
+#[inline(always)]
 fn floor(value: f32) -> i32 {
     (value + 4096.0) as i32 - 4096
 }
@@ -114,6 +144,7 @@ impl Lens {
         }
     }
 
+    #[inline(always)]
     fn project(&self, point: Vector3<f32>) -> (f32, f32) {
         let [k1, k2, p1, p2, k3] = self.k;
         let inverse = 1.0 / point.z;

@@ -2,6 +2,7 @@
 
 use super::integral::IntegralImage;
 use nalgebra::{Matrix3, Vector3};
+use pulp::{Arch, NullaryFnOnce};
 
 /// A scale-space maximum of the determinant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +58,8 @@ impl Detector {
         for octave in 0..octaves {
             let layers = &mut self.layers[octave * INTERVALS..(octave + 1) * INTERVALS];
             for (interval, layer) in layers.iter_mut().enumerate() {
-                layer.compute(integral, filter_edge(octave, interval), FIRST_STEP << octave, &mut self.rows);
+                let (filter, step) = (filter_edge(octave, interval), FIRST_STEP << octave);
+                Arch::new().dispatch(Filters { layer, integral, filter, step, rows: &mut self.rows });
             }
             for middle in 1..INTERVALS - 1 {
                 find_maxima(&layers[middle - 1..=middle + 1], threshold, &mut maxima);
@@ -67,52 +69,105 @@ impl Detector {
     }
 }
 
+/// A layer to be computed. A type, and not a closure: what the processor is to run must be inlined whole, and a closure's
+/// call is not.
+struct Filters<'a> {
+    layer: &'a mut Layer,
+    integral: &'a IntegralImage,
+    filter: usize,
+    step: usize,
+    rows: &'a mut FilterRows,
+}
+
+impl NullaryFnOnce for Filters<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.layer.compute(self.integral, self.filter, self.step, self.rows);
+    }
+}
+
 /// One row of the integral image, combined vertically for each of the three filters, so that along the row
-/// every output needs only two to four reads.
+/// every output needs only two to four reads; and what comes of them at every pixel.
 #[derive(Clone, Debug, Default)]
 struct FilterRows {
     xx: Vec<i32>,
     yy: Vec<i32>,
     xy: Vec<i32>,
+    determinant: Vec<f32>,
+    trace: Vec<f32>,
 }
 
 impl FilterRows {
     /// Combines the integral image's rows for outputs in pixel row `y`; the filter must fit.
+    #[inline(always)]
     fn combine(&mut self, integral: &IntegralImage, y: usize, filter: usize) {
         let lobe = filter / 3;
         let (half, half_lobe) = (filter / 2, lobe / 2);
-        let row = |y: usize| integral.row(y);
-        let fill = |out: &mut Vec<i32>, values: &mut dyn Iterator<Item = i32>| {
-            out.clear();
-            out.extend(values);
-        };
+        let count = integral.width() + 1;
+        let row = |y: usize| &integral.row(y)[..count];
+        for out in [&mut self.xx, &mut self.yy, &mut self.xy] {
+            out.resize(count, 0);
+        }
         let (top, bottom) = (row(y + 1 - lobe), row(y + lobe));
-        fill(&mut self.xx, &mut bottom.iter().zip(top).map(|(b, t)| b.wrapping_sub(*t)));
+        for (x, out) in self.xx[..count].iter_mut().enumerate() {
+            *out = bottom[x].wrapping_sub(top[x]);
+        }
         let (top, bottom) = (row(y - half), row(y + half + 1));
         let (inner_top, inner_bottom) = (row(y - half_lobe), row(y + half_lobe + 1));
-        fill(
-            &mut self.yy,
-            &mut bottom
-                .iter()
-                .zip(top)
-                .zip(inner_bottom.iter().zip(inner_top))
-                .map(|((b, t), (ib, it))| b.wrapping_sub(*t).wrapping_sub(ib.wrapping_sub(*it).wrapping_mul(3))),
-        );
+        for (x, out) in self.yy[..count].iter_mut().enumerate() {
+            let inner = inner_bottom[x].wrapping_sub(inner_top[x]);
+            *out = bottom[x].wrapping_sub(top[x]).wrapping_sub(inner.wrapping_mul(3));
+        }
         let (above_top, above_bottom) = (row(y - lobe), row(y));
         let (below_top, below_bottom) = (row(y + 1), row(y + lobe + 1));
-        fill(
-            &mut self.xy,
-            &mut above_bottom
-                .iter()
-                .zip(above_top)
-                .zip(below_bottom.iter().zip(below_top))
-                .map(|((ab, at), (bb, bt))| ab.wrapping_sub(*at).wrapping_sub(bb.wrapping_sub(*bt))),
-        );
+        for (x, out) in self.xy[..count].iter_mut().enumerate() {
+            let above = above_bottom[x].wrapping_sub(above_top[x]);
+            *out = above.wrapping_sub(below_bottom[x].wrapping_sub(below_top[x]));
+        }
+    }
+
+    /// Determinant and trace at `count` pixels from column `first` on, from the combined rows. At every one, though only
+    /// every `step`-th is wanted: many beside each other take less than a few far apart.
+    #[inline(always)]
+    fn respond(&mut self, first: usize, count: usize, filter: usize) {
+        let left = first - filter / 2;
+        let inputs = [&self.xx, &self.yy, &self.xy].map(|row| &row[left..]);
+        self.determinant.resize(count, 0.0);
+        self.trace.resize(count, 0.0);
+        respond(inputs, filter, &mut self.determinant, &mut self.trace);
+    }
+}
+
+/// Determinants and traces from combined rows that begin at the first filter's left edge.
+#[inline(always)]
+fn respond([xx, yy, xy]: [&[i32]; 3], filter: usize, determinants: &mut [f32], traces: &mut [f32]) {
+    let (half, lobe) = (filter / 2, filter / 3);
+    let half_lobe = lobe / 2;
+    let per_area = 1.0 / (filter * filter) as f32;
+    let count = determinants.len();
+    let traces = &mut traces[..count];
+    let [outer_left, inner_left, inner_right, outer_right] =
+        [0, half - half_lobe, half + half_lobe + 1, filter].map(|x| &xx[x..][..count]);
+    let [left, right] = [half + 1 - lobe, half + lobe].map(|x| &yy[x..][..count]);
+    let [far_left, near_left, near_right, far_right] =
+        [half - lobe, half, half + 1, half + lobe + 1].map(|x| &xy[x..][..count]);
+    for k in 0..count {
+        let centre = inner_right[k].wrapping_sub(inner_left[k]);
+        let dxx = outer_right[k].wrapping_sub(outer_left[k]).wrapping_sub(centre.wrapping_mul(3));
+        let dyy = right[k].wrapping_sub(left[k]);
+        let dxy = near_left[k].wrapping_sub(far_left[k]).wrapping_sub(far_right[k].wrapping_sub(near_right[k]));
+        let (dxx, dyy) = (dxx as f32 * per_area, dyy as f32 * per_area);
+        let dxy = dxy as f32 * (per_area * DXY_WEIGHT);
+        determinants[k] = dxx * dyy - dxy * dxy;
+        traces[k] = dxx + dyy;
     }
 }
 
 impl Layer {
     /// Responses of the `filter` wide filters at every `step`-th pixel; zero where they do not fit.
+    #[inline(always)]
     fn compute(&mut self, integral: &IntegralImage, filter: usize, step: usize, rows: &mut FilterRows) {
         (self.filter, self.step) = (filter, step);
         (self.columns, self.rows) = (integral.width().div_ceil(step), integral.height().div_ceil(step));
@@ -122,8 +177,7 @@ impl Layer {
         self.trace_positive.clear();
         self.trace_positive.resize(count, false);
 
-        let (half, lobe) = (filter / 2, filter / 3);
-        let half_lobe = lobe / 2;
+        let half = filter / 2;
         // Grid positions whose filter lies inside the image: half ≤ position, position + half < size.
         let first = half.div_ceil(step);
         let inside = |size: usize| first..(size.saturating_sub(half)).div_ceil(step).max(first);
@@ -131,23 +185,14 @@ impl Layer {
         if columns.is_empty() {
             return;
         }
-        let per_area = 1.0 / (filter * filter) as f32;
         for row in inside(integral.height()) {
             rows.combine(integral, row * step, filter);
+            rows.respond(first * step, (columns.len() - 1) * step + 1, filter);
             let start = row * self.columns;
             let determinants = &mut self.determinant[start + columns.start..start + columns.end];
             let traces = &mut self.trace_positive[start + columns.start..start + columns.end];
             for (k, (determinant, trace_positive)) in determinants.iter_mut().zip(traces).enumerate() {
-                let x = (columns.start + k) * step;
-                let (xx, yy, xy) = (&rows.xx, &rows.yy, &rows.xy);
-                let centre = xx[x + half_lobe + 1].wrapping_sub(xx[x - half_lobe]);
-                let dxx = xx[x + half + 1].wrapping_sub(xx[x - half]).wrapping_sub(centre.wrapping_mul(3));
-                let dyy = yy[x + lobe].wrapping_sub(yy[x + 1 - lobe]);
-                let dxy = xy[x].wrapping_sub(xy[x - lobe]).wrapping_sub(xy[x + lobe + 1].wrapping_sub(xy[x + 1]));
-                let (dxx, dyy) = (dxx as f32 * per_area, dyy as f32 * per_area);
-                let dxy = dxy as f32 * (per_area * DXY_WEIGHT);
-                *determinant = dxx * dyy - dxy * dxy;
-                *trace_positive = dxx + dyy > 0.0;
+                (*determinant, *trace_positive) = (rows.determinant[k * step], rows.trace[k * step] > 0.0);
             }
         }
     }

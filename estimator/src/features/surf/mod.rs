@@ -80,7 +80,7 @@ impl Surf {
     /// Features of `image` at places (x, y) and scales, all in pixels, that are `wanted`: others cost no budget.
     pub fn detect_where(&mut self, image: &GrayImage, wanted: impl Fn(f32, f32, f32) -> bool) -> Vec<Feature> {
         let kept = self.points(image, wanted);
-        kept.iter().map(|maximum| describe(&self.integral, maximum)).collect()
+        describe(&self.integral, &kept)
     }
 
     /// The same places, not described.
