@@ -68,8 +68,8 @@ pub fn match_features(from: &[Feature], to: &[Feature], params: &MatchParams) ->
         .collect()
 }
 
-/// Every feature of `from` held against every one of `to`, and the nearest of each. A type, and not a closure: what the
-/// processor is to run must be inlined whole, and a closure's call is not.
+/// Every feature of `from` held against every one of `to`, and the nearest of each.
+/// A type of its own: [`Arch::dispatch`] inlines no closure.
 struct Comparison<'a> {
     from: &'a [Feature],
     to: &'a [Feature],
@@ -163,6 +163,8 @@ fn exceeds(values: &[f32; LANES], bounds: &[f32; LANES]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     fn feature(direction: usize, lean: f32, laplacian_positive: bool) -> Feature {
         let mut descriptor = [0.0; 64];
@@ -180,6 +182,51 @@ mod tests {
         let pairs: Vec<_> =
             match_features(&from, &to, &MatchParams::default()).iter().map(|m| (m.from, m.to)).collect();
         assert_eq!(pairs, [(0, 1), (2, 0)]);
+    }
+
+    /// Features at random, in both signs.
+    fn crowd(count: usize, seed: u64) -> Vec<Feature> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut one = |index: usize| {
+            let mut feature = feature(0, 0.0, index % 3 == 0);
+            let numbers: [f32; 64] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
+            let norm = numbers.iter().map(|number| number * number).sum::<f32>().sqrt();
+            feature.descriptor = numbers.map(|number| number / norm);
+            feature
+        };
+        (0..count).map(&mut one).collect()
+    }
+
+    #[test]
+    fn a_crowd_is_matched_as_if_one_by_one() {
+        let mut matches = 0;
+        for (count, others) in [(1, 1), (5, 8), (9, 60), (60, 9), (47, 53)] {
+            let (from, to) = (crowd(count, 1), crowd(others, 2));
+            let near = |a: &Feature, b: &Feature| -> f64 {
+                a.descriptor.iter().zip(&b.descriptor).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+            };
+            // From the nearest on.
+            let neighbours = |of: &Feature, among: &[Feature]| -> Vec<(f64, usize)> {
+                let same = |&i: &usize| among[i].laplacian_positive == of.laplacian_positive;
+                let mut found: Vec<_> = (0..among.len()).filter(same).map(|i| (near(of, &among[i]), i)).collect();
+                found.sort_by(|a, b| b.0.total_cmp(&a.0));
+                found
+            };
+            let distance = |similarity: f64| (2.0 - 2.0 * similarity).sqrt();
+            let expected: Vec<_> = (0..count)
+                .filter_map(|i| {
+                    let there = neighbours(&from[i], &to);
+                    let &(best, j) = there.first()?;
+                    let back = neighbours(&to[j], &from)[0].1;
+                    let sure = there.get(1).is_none_or(|second| distance(best) < 0.97 * distance(second.0));
+                    (back == i && sure).then_some((i, j))
+                })
+                .collect();
+            let found = match_features(&from, &to, &MatchParams { max_ratio: 0.97 });
+            assert_eq!(found.iter().map(|found| (found.from, found.to)).collect::<Vec<_>>(), expected);
+            matches += expected.len();
+        }
+        assert!(matches > 10, "{matches} do not tell much");
     }
 
     #[test]

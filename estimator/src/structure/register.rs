@@ -53,8 +53,7 @@ impl Registration {
     }
 }
 
-/// Every depth pixel into the colour pixels that it covers. A type, and not a closure: what the processor is to run must
-/// be inlined whole, and a closure's call is not.
+/// Every depth pixel into the colour pixels that it covers. A type of its own: [`Arch::dispatch`] inlines no closure.
 struct Splat<'a> {
     registration: &'a Registration,
     depth: &'a DepthImage,

@@ -82,8 +82,7 @@ pub fn describe(integral: &IntegralImage, maxima: &[Maximum]) -> Vec<Feature> {
     Arch::new().dispatch(Description { integral, maxima })
 }
 
-/// Maxima to be described. A type, and not a closure: what the processor is to run must be inlined whole, and a closure's
-/// call is not.
+/// Maxima to be described. A type of its own: [`Arch::dispatch`] inlines no closure.
 struct Description<'a> {
     integral: &'a IntegralImage,
     maxima: &'a [Maximum],

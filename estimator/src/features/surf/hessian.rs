@@ -69,8 +69,7 @@ impl Detector {
     }
 }
 
-/// A layer to be computed. A type, and not a closure: what the processor is to run must be inlined whole, and a closure's
-/// call is not.
+/// A layer to be computed. A type of its own: [`Arch::dispatch`] inlines no closure.
 struct Filters<'a> {
     layer: &'a mut Layer,
     integral: &'a IntegralImage,
