@@ -26,7 +26,8 @@ impl Registration {
         let rotation: Matrix3<f64> = *rig.colour_from_depth.rotation.to_rotation_matrix().matrix();
         let DepthCamera { model, registered_to_colour, .. } = rig.depth;
         let mut rays: [Vec<f32>; 3] = Default::default();
-        for index in 0..if registered_to_colour { 0 } else { model.width * model.height } {
+        let pixels = if registered_to_colour { 0 } else { model.width * model.height };
+        for index in 0..pixels {
             let pixel = Point2::new((index % model.width) as f64, (index / model.width) as f64);
             let ray = rotation * model.ray(&pixel);
             rays.iter_mut().zip(ray.iter()).for_each(|(rays, &along)| rays.push(along as f32));
@@ -109,10 +110,10 @@ impl NullaryFnOnce for Splat<'_> {
 }
 
 /// Floor by truncation, far quicker than `f32::floor` where the processor lacks an instruction for it. Values below
-/// −4096, which no pixel has, come out too large, and those beyond the range of i32 saturate.
+/// −4096, which no pixel has, come out too large, and those beyond the range of i32 as any number that is no pixel's.
 #[inline(always)]
 fn floor(value: f32) -> i32 {
-    (value + 4096.0) as i32 - 4096
+    ((value + 4096.0) as i32).wrapping_sub(4096)
 }
 
 /// Half the edge of a depth pixel's footprint in the colour image: half the magnification, and never under half a
