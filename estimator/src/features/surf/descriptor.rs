@@ -44,10 +44,13 @@ static WINDOW: LazyLock<[f32; SAMPLES]> = LazyLock::new(|| {
     })
 });
 
-/// Where each sample's values go, row after row: regions, as where in the 64 numbers they begin, and shares. A sample is
-/// shared linearly between the neighbouring regions, so that a shift by a fraction of a region changes the descriptor by
-/// that fraction; where there are fewer than four the rest have no share.
-static SHARES: LazyLock<[[[(usize, f32); 4]; SAMPLES]; SAMPLES]> = LazyLock::new(|| {
+/// Where a sample's values go: regions, as where in the 64 numbers they begin, and shares.
+type Shares = [(usize, f32); 4];
+
+/// The shares of each sample, row after row. A sample is shared linearly between the neighbouring regions, so that a shift
+/// by a fraction of a region changes the descriptor by that fraction; where there are fewer than four the rest have no
+/// share.
+static SHARES: LazyLock<[[Shares; SAMPLES]; SAMPLES]> = LazyLock::new(|| {
     // In regions, from the first region's centre.
     let along_an_axis = |sample: usize| {
         let place = (sample as f32 - 2.0) / 5.0;
