@@ -188,7 +188,7 @@ mod tests {
     fn crowd(count: usize, seed: u64) -> Vec<Feature> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut one = |index: usize| {
-            let mut feature = feature(0, 0.0, index % 3 == 0);
+            let mut feature = feature(0, 0.0, index.is_multiple_of(3));
             let numbers: [f32; 64] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
             let norm = numbers.iter().map(|number| number * number).sum::<f32>().sqrt();
             feature.descriptor = numbers.map(|number| number / norm);
