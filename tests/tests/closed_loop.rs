@@ -191,16 +191,23 @@ fn every_scenario_holds_in_its_short_form() {
 #[test]
 fn what_must_fail_fails() {
     let place = tempfile::tempdir().unwrap();
+    let output = run(&["canary.toml"], &place.path().join("out"), &["--short"], None);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr_of(&output));
+    assert!(stdout_of(&output).contains("missed") && stderr_of(&output).contains("1 expectation was missed"));
+    // The results of a run that missed something are there all the same.
+    assert!(place.path().join("out/report.html").is_file());
+}
+
+#[test]
+fn of_several_scenarios_it_is_said_which_missed() {
+    let place = tempfile::tempdir().unwrap();
     let second = place.path().join("second.toml");
     fs::copy(shipped("canary.toml"), &second).unwrap();
     let second = second.to_str().expect("a path of text");
     let output = run(&["canary.toml", second], place.path(), &["--short"], None);
     assert_eq!(output.status.code(), Some(1), "{}", stderr_of(&output));
-    // Of many it is said at the end which.
     assert!(stdout_of(&output).ends_with("missed: canary, second\n"), "{}", stdout_of(&output));
     assert!(stderr_of(&output).contains("2 expectations were missed"), "{}", stderr_of(&output));
-    // The results of a run that missed something are there all the same.
-    assert!(place.path().join("canary/report.html").is_file());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `sunblind run`: a scenario is driven, estimated and judged.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -47,7 +48,8 @@ impl Run {
         // All are read before the first is driven: a slip of the pen should not cost an hour.
         let loaded: Vec<_> = self.scenarios.iter().map(|file| self.load(file)).collect::<Result<_, _>>()?;
         let names: Vec<_> = self.scenarios.iter().map(|file| name_of(file)).collect();
-        if let Some(name) = names.iter().enumerate().find_map(|(at, name)| names[..at].contains(name).then_some(name)) {
+        let mut seen = BTreeSet::new();
+        if let Some(name) = names.iter().find(|name| !seen.insert(*name)) {
             return Err(Failure::SameName { name: name.clone() });
         }
         let mut missed = 0;
