@@ -35,10 +35,11 @@ const DARK: f32 = 3.0;
 /// Recovers albedo from the infrared images of one device.
 pub struct AlbedoCamera {
     pattern: Pattern,
-    /// Metres and disparity (f·b/z, pixels) by depth value; 0 = no value.
+    /// Metres by depth value; 0 = no value.
     metres: Vec<f32>,
-    disparities: Vec<f32>,
-    /// Light at 1 m, and where it is known, of the newest image; and its wide mean.
+    /// Disparity at 1 m, f·b, pixels.
+    disparity_at_1_m: f32,
+    /// Light at 1 m of the newest image, 0 where it is unknown; its wide mean; and f·b/z, pixels, 0 without a depth.
     light: Image<f32>,
     wide: Image<f32>,
     disparity: Image<f32>,
@@ -62,12 +63,10 @@ impl AlbedoCamera {
             DepthEncoding::KinectDisparity { baseline, .. } => baseline,
             DepthEncoding::Linear { .. } => BASELINE,
         };
-        let metres: Vec<f32> = (0..=u16::MAX).map(|value| camera.depth_of(value).unwrap_or(0.0) as f32).collect();
-        let disparity = |&z: &f32| if z > 0.0 { (camera.model.fx * baseline) as f32 / z } else { 0.0 };
         Self {
             pattern: Pattern::unknown(width, height),
-            disparities: metres.iter().map(disparity).collect(),
-            metres,
+            metres: (0..=u16::MAX).map(|value| camera.depth_of(value).unwrap_or(0.0) as f32).collect(),
+            disparity_at_1_m: (camera.model.fx * baseline) as f32,
             light: Image::filled(width, height, 0.0),
             wide: Image::filled(width, height, 0.0),
             disparity: Image::filled(width, height, 0.0),
@@ -77,29 +76,18 @@ impl AlbedoCamera {
     /// The albedo in one image; `depth` is of the same instant.
     pub fn recover(&mut self, infrared: &InfraredImage, depth: &DepthImage) -> Albedo {
         let (width, height) = infrared.size();
-        let known = self.take(infrared, depth);
-        self.wide = ratio(&blur(&self.light, WIDE.0, WIDE.1), &blur(&known, WIDE.0, WIDE.1));
-        let contrast = self.contrast(&known);
-        let mut expected = Image::filled(width, height, 0.0);
-        for y in 0..height {
-            for x in 0..width {
-                let index = y * width + x;
-                if known.pixels()[index] > 0.0 {
-                    let light = self.pattern.light(x, y, self.disparity.pixels()[index]);
-                    expected.pixels_mut()[index] = (1.0 + contrast.at(x, y) * (light - 1.0)).max(0.0);
-                }
-            }
-        }
-        let albedo = ratio(&blur(&self.light, NARROW.0, NARROW.1), &blur(&expected, NARROW.0, NARROW.1));
         let metres = depth.pixels().iter().map(|&value| self.metres[usize::from(value)]).collect();
+        let depth = Image::from_pixels(width, height, metres).expect("depth lies in the infrared image's pixels");
+        let known = self.take(infrared, &depth);
+        self.wide = ratio(&blur(&self.light, WIDE.0, WIDE.1), &blur(&known, WIDE.0, WIDE.1));
+        let pattern = self.pattern.light(&self.disparity);
+        let expected = self.contrast(&known, &pattern).expected(&known, &pattern);
+        let albedo = ratio(&blur(&self.light, NARROW.0, NARROW.1), &blur(&expected, NARROW.0, NARROW.1));
         let levels = self.to_levels(&albedo);
+        // Levels are at least 1, where half up is what `round` does, without a call.
         let rounded =
-            levels.pixels().iter().map(|&level| if level > 0.0 { level.round() as u8 } else { 128 }).collect();
-        Albedo {
-            image: Image::from_pixels(width, height, rounded).expect("same size in and out"),
-            levels,
-            depth: Image::from_pixels(width, height, metres).expect("same size in and out"),
-        }
+            levels.pixels().iter().map(|&level| if level > 0.0 { (level + 0.5) as u8 } else { 128 }).collect();
+        Albedo { image: Image::from_pixels(width, height, rounded).expect("same size in and out"), levels, depth }
     }
 
     /// Learns the dots from the image that was recovered last. Images of one and the same view teach the view.
@@ -118,37 +106,31 @@ impl AlbedoCamera {
     }
 
     /// Takes an image in; where its light is known: 1, elsewhere 0.
-    fn take(&mut self, infrared: &InfraredImage, depth: &DepthImage) -> Image<f32> {
-        let (width, height) = infrared.size();
-        let mut known = Image::filled(width, height, 0.0);
-        for (index, (&number, &value)) in infrared.pixels().iter().zip(depth.pixels()).enumerate() {
-            let z = self.metres[usize::from(value)];
+    fn take(&mut self, infrared: &InfraredImage, depth: &Image<f32>) -> Image<f32> {
+        let mut known = Image::filled(infrared.width(), infrared.height(), 0.0);
+        let out = known.pixels_mut().iter_mut().zip(self.light.pixels_mut()).zip(self.disparity.pixels_mut());
+        for (((known, light), disparity), (&number, &z)) in out.zip(infrared.pixels().iter().zip(depth.pixels())) {
             let is_known = z > 0.0 && number < SATURATED;
-            known.pixels_mut()[index] = f32::from(u8::from(is_known));
-            self.light.pixels_mut()[index] = if is_known { f32::from(number) * z * z } else { 0.0 };
-            self.disparity.pixels_mut()[index] = self.disparities[usize::from(value)];
+            *known = f32::from(u8::from(is_known));
+            *light = if is_known { f32::from(number) * z * z } else { 0.0 };
+            *disparity = if z > 0.0 { self.disparity_at_1_m / z } else { 0.0 };
         }
         known
     }
 
     /// How strong the dots are against what was learnt: the slope of light over pattern, cell by cell.
-    fn contrast(&self, known: &Image<f32>) -> Cells {
+    fn contrast(&self, known: &Image<f32>, pattern: &Image<f32>) -> Contrast {
         let (width, height) = known.size();
         let (columns, rows) = (width.div_ceil(CELL), height.div_ceil(CELL));
         let mut moments = vec![[0.0_f64; 5]; columns * rows];
         for y in 0..height {
-            for x in 0..width {
-                let index = y * width + x;
-                let wide = self.wide.pixels()[index];
-                if known.pixels()[index] == 0.0 || wide <= DARK {
-                    continue;
-                }
-                let pattern = f64::from(self.pattern.light(x, y, self.disparity.pixels()[index]));
-                let light = f64::from(self.light.pixels()[index] / wide);
-                let sums = &mut moments[y / CELL * columns + x / CELL];
-                for (sum, value) in sums.iter_mut().zip([1.0, pattern, light, pattern * pattern, pattern * light]) {
-                    *sum += value;
-                }
+            let moments = &mut moments[y / CELL * columns..][..columns];
+            let cells = [known, pattern, &self.light, &self.wide].map(|image| image.row(y).chunks(CELL));
+            let [known, pattern, light, wide] = cells;
+            for ((((sums, known), pattern), light), wide) in
+                moments.iter_mut().zip(known).zip(pattern).zip(light).zip(wide)
+            {
+                add_moments(sums, known, pattern, light, wide);
             }
         }
         let slope = |[count, p, l, pp, pl]: [f64; 5]| {
@@ -156,7 +138,7 @@ impl AlbedoCamera {
             let filled = count > CELL_FILLED * (CELL * CELL) as f64;
             if filled && variance > 1e-3 * count { (covariance / variance).clamp(0.0, 2.0) as f32 } else { 1.0 }
         };
-        Cells { columns, rows, values: moments.into_iter().map(slope).collect() }
+        Contrast { columns, rows, values: moments.into_iter().map(slope).collect() }
     }
 
     fn to_levels(&self, albedo: &Image<f32>) -> Image<f32> {
@@ -180,27 +162,51 @@ fn ratio(above: &Image<f32>, below: &Image<f32>) -> Image<f32> {
     Image::from_pixels(above.width(), above.height(), pixels).expect("same size in and out")
 }
 
-/// Values in cells of an image, and between their middles.
-struct Cells {
+/// Adds the number of pixels that say something, and their sums of pattern, light, pattern² and pattern · light.
+fn add_moments(sums: &mut [f64; 5], known: &[f32], pattern: &[f32], light: &[f32], wide: &[f32]) {
+    for (((known, pattern), light), wide) in known.iter().zip(pattern).zip(light).zip(wide) {
+        if *known == 0.0 || *wide <= DARK {
+            continue;
+        }
+        let (pattern, light) = (f64::from(*pattern), f64::from(light / wide));
+        for (sum, value) in sums.iter_mut().zip([1.0, pattern, light, pattern * pattern, pattern * light]) {
+            *sum += value;
+        }
+    }
+}
+
+/// How strong the dots are, in cells of an image; it changes evenly from one cell's middle to the next one's.
+struct Contrast {
     columns: usize,
     rows: usize,
     values: Vec<f32>,
 }
 
-impl Cells {
-    fn at(&self, x: usize, y: usize) -> f32 {
-        let place = |at: usize, count: usize| {
-            let at = ((at as f32 + 0.5) / CELL as f32 - 0.5).clamp(0.0, (count - 1) as f32);
-            let first = (at as usize).min(count.saturating_sub(2));
-            (first, (first + 1).min(count - 1), at - first as f32)
-        };
-        let ((left, right, across), (top, bottom, down)) = (place(x, self.columns), place(y, self.rows));
-        let along = |row: usize| {
-            let (left, right) = (self.values[row * self.columns + left], self.values[row * self.columns + right]);
-            left + across * (right - left)
-        };
-        along(top) + down * (along(bottom) - along(top))
+impl Contrast {
+    /// The dots' light in an image where it is `known`, and 0 where it is not; 1 is that of no dots.
+    fn expected(&self, known: &Image<f32>, pattern: &Image<f32>) -> Image<f32> {
+        let (width, height) = known.size();
+        let columns: Vec<_> = (0..width).map(|x| between(x, self.columns)).collect();
+        let mut expected = Vec::with_capacity(width * height);
+        for y in 0..height {
+            let (top, bottom, down) = between(y, self.rows);
+            let (top, bottom) = (&self.values[top * self.columns..], &self.values[bottom * self.columns..]);
+            let pixels = columns.iter().zip(known.row(y)).zip(pattern.row(y));
+            expected.extend(pixels.map(|((&(left, right, across), &known), &pattern)| {
+                let along = |row: &[f32]| row[left] + across * (row[right] - row[left]);
+                let contrast = along(top) + down * (along(bottom) - along(top));
+                if known > 0.0 { (1.0 + contrast * (pattern - 1.0)).max(0.0) } else { 0.0 }
+            }));
+        }
+        Image::from_pixels(width, height, expected).expect("same size in and out")
     }
+}
+
+/// The two of `count` cells between whose middles a pixel lies, and how far from the first to the second.
+fn between(pixel: usize, count: usize) -> (usize, usize, f32) {
+    let at = ((pixel as f32 + 0.5) / CELL as f32 - 0.5).clamp(0.0, (count - 1) as f32);
+    let first = (at as usize).min(count.saturating_sub(2));
+    (first, (first + 1).min(count - 1), at - first as f32)
 }
 
 #[cfg(test)]

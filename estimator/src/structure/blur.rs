@@ -2,44 +2,70 @@
 
 use crate::image::Image;
 
+/// Rows summed side by side: each sum waits for itself only, so several cost little more than one.
+const ABREAST: usize = 8;
+
 /// `passes` box filters of `2·reach + 1` pixels in both directions; σ² = passes · reach · (reach + 1) / 3. Beyond its rim
 /// the image is zero.
 pub(super) fn blur(image: &Image<f32>, reach: usize, passes: usize) -> Image<f32> {
     let (width, height) = image.size();
     let mut current = image.clone();
     let mut next = Image::filled(width, height, 0.0);
-    let weight = 1.0 / (2 * reach + 1) as f32;
     for _ in 0..passes {
-        for y in 0..height {
-            let row = current.row(y);
-            let out = &mut next.pixels_mut()[y * width..(y + 1) * width];
-            let mut sum: f32 = row[..reach.min(width)].iter().sum();
-            for x in 0..width {
-                sum += row.get(x + reach).copied().unwrap_or(0.0);
-                out[x] = sum * weight;
-                sum -= if x >= reach { row[x - reach] } else { 0.0 };
+        let (from, to) = (current.pixels().chunks(ABREAST * width), next.pixels_mut().chunks_mut(ABREAST * width));
+        for (from, to) in from.zip(to) {
+            if from.len() == ABREAST * width {
+                along_rows::<ABREAST>(from, to, reach);
+            } else {
+                from.chunks(width).zip(to.chunks_mut(width)).for_each(|(from, to)| along_rows::<1>(from, to, reach));
             }
         }
-        // Down the columns, all of them at once.
-        let mut sums = vec![0.0_f32; width];
-        let add = |sums: &mut [f32], row: &[f32], sign: f32| {
-            sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += sign * value);
-        };
-        for y in 0..reach.min(height) {
-            add(&mut sums, next.row(y), 1.0);
-        }
-        for y in 0..height {
-            if y + reach < height {
-                add(&mut sums, next.row(y + reach), 1.0);
-            }
-            let out = &mut current.pixels_mut()[y * width..(y + 1) * width];
-            out.iter_mut().zip(&sums).for_each(|(out, sum)| *out = sum * weight);
-            if y >= reach {
-                add(&mut sums, next.row(y - reach), -1.0);
-            }
-        }
+        down_columns(next.pixels(), current.pixels_mut(), width, reach);
     }
     current
+}
+
+/// One box filter along each of `ROWS` rows.
+fn along_rows<const ROWS: usize>(from: &[f32], to: &mut [f32], reach: usize) {
+    let width = from.len() / ROWS;
+    let weight = 1.0 / (2 * reach + 1) as f32;
+    // Pixels of one column next to each other, with nothing on either side.
+    let mut columns = vec![[0.0_f32; ROWS]; width + 2 * reach];
+    for (row, from) in from.chunks_exact(width).enumerate() {
+        columns[reach..].iter_mut().zip(from).for_each(|(column, &value)| column[row] = value);
+    }
+    let mut sums = [0.0_f32; ROWS];
+    columns[..2 * reach].iter().for_each(|column| add(&mut sums, column));
+    for x in 0..width {
+        add(&mut sums, &columns[x + 2 * reach]);
+        let leaves = columns[x];
+        columns[x] = sums.map(|sum| sum * weight);
+        sums.iter_mut().zip(leaves).for_each(|(sum, value)| *sum -= value);
+    }
+    for (row, to) in to.chunks_exact_mut(width).enumerate() {
+        to.iter_mut().zip(&columns).for_each(|(to, column)| *to = column[row]);
+    }
+}
+
+fn add(sums: &mut [f32], values: &[f32]) {
+    sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+}
+
+/// One box filter down the columns, all of them at once.
+fn down_columns(from: &[f32], to: &mut [f32], width: usize, reach: usize) {
+    let weight = 1.0 / (2 * reach + 1) as f32;
+    let mut sums = vec![0.0_f32; width];
+    let nothing = vec![0.0_f32; width];
+    from.chunks_exact(width).take(reach).for_each(|row| add(&mut sums, row));
+    for (y, out) in to.chunks_exact_mut(width).enumerate() {
+        let row = |at: Option<usize>| at.and_then(|y| from.get(y * width..(y + 1) * width)).unwrap_or(&nothing);
+        let (enters, leaves) = (row(Some(y + reach)), row(y.checked_sub(reach)));
+        for (((out, sum), enters), leaves) in out.iter_mut().zip(&mut sums).zip(enters).zip(leaves) {
+            *sum += enters;
+            *out = *sum * weight;
+            *sum -= leaves;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! What a projector throws, learnt from what the camera beside it sees.
 
+use crate::image::Image;
+
 /// Light by where it leaves the projector, in infrared pixels of infinitely far surfaces; row by row. Its mean is 1.
 ///
 /// A dot keeps its row and the place in the pattern that it comes from, wherever it falls: seen at column u on a surface at
@@ -7,7 +9,6 @@
 #[derive(Clone, Debug)]
 pub(super) struct Pattern {
     width: usize,
-    height: usize,
     /// Sums of light over images, and of how many.
     light: Vec<f32>,
     weight: Vec<f32>,
@@ -25,7 +26,7 @@ impl Pattern {
     /// Nothing known: even light.
     pub fn unknown(width: usize, height: usize) -> Self {
         let size = (width + MARGIN) * height;
-        Self { width: width + MARGIN, height, light: vec![0.0; size], weight: vec![0.0; size] }
+        Self { width: width + MARGIN, light: vec![0.0; size], weight: vec![0.0; size] }
     }
 
     /// Forgets a little, before an image is learnt.
@@ -36,24 +37,36 @@ impl Pattern {
 
     /// Learns that where (column, row) is seen at `disparity` there was `light`, relative to the light around.
     pub fn learn(&mut self, column: usize, row: usize, disparity: f32, light: f32) {
-        let Some((index, share)) = self.place(column, row, disparity) else { return };
+        let Some((place, share)) = self.place(column, disparity) else { return };
+        let index = row * self.width + place;
         for (index, weight) in [(index, 1.0 - share), (index + 1, share)] {
             self.light[index] += weight * light;
             self.weight[index] += weight;
         }
     }
 
-    /// The light expected where (column, row) is seen at `disparity`.
-    pub fn light(&self, column: usize, row: usize, disparity: f32) -> f32 {
-        let Some((index, share)) = self.place(column, row, disparity) else { return 1.0 };
-        let at = |index: usize| (self.light[index] + DOUBT) / (self.weight[index] + DOUBT);
-        at(index) * (1.0 - share) + at(index + 1) * share
+    /// The light expected in each pixel of an image whose surfaces lie at these disparities.
+    pub fn light(&self, disparity: &Image<f32>) -> Image<f32> {
+        let known = self.light.iter().zip(&self.weight);
+        let known: Vec<f32> = known.map(|(light, weight)| (light + DOUBT) / (weight + DOUBT)).collect();
+        let (width, height) = disparity.size();
+        let mut expected = Image::filled(width, height, 1.0);
+        let rows = expected.pixels_mut().chunks_exact_mut(width).zip(disparity.pixels().chunks_exact(width));
+        for ((expected, disparity), known) in rows.zip(known.chunks_exact(self.width)) {
+            for (column, (expected, &disparity)) in expected.iter_mut().zip(disparity).enumerate() {
+                if let Some((place, share)) = self.place(column, disparity) {
+                    *expected = known[place] * (1.0 - share) + known[place + 1] * share;
+                }
+            }
+        }
+        expected
     }
 
-    /// Index of the place to the left, and how far beyond it.
-    fn place(&self, column: usize, row: usize, disparity: f32) -> Option<(usize, f32)> {
-        let x = (column + MARGIN) as f32 - disparity;
-        let inside = x >= 0.0 && x < (self.width - 1) as f32 && row < self.height;
-        inside.then(|| (row * self.width + x as usize, x.fract()))
+    /// The place in its row that is left of where light left the projector, and how far beyond it.
+    fn place(&self, column: usize, disparity: f32) -> Option<(usize, f32)> {
+        // 32 bits are a single instruction where 64 are many.
+        let x = (column + MARGIN) as u32 as f32 - disparity;
+        let left = x as i32;
+        (x >= 0.0 && x < (self.width - 1) as u32 as f32).then(|| (left as usize, x - left as f32))
     }
 }
