@@ -1,6 +1,6 @@
 //! Wheels and visual odometry together (paper A, §5): `wheel_odometry` (with `arc` and `gyro`) carries the pose on,
-//! the motion since a keyframe (`visual`) corrects it, in an `ekf` and in an `svsf` side by side, which share `filter`
-//! and `gate` and stand on the keyframe's pose (`anchored`). What was seen of a turn teaches the gyro its bias
+//! the motion since a keyframe (`visual`, of all its frames `pooled`) corrects it, in an `ekf` and in an `svsf` side by
+//! side, which share `filter` and `gate` and stand on the keyframe's pose (`anchored`). What was seen of a turn teaches the gyro its bias
 //! (`sighted_turn`).
 
 mod anchored;
@@ -10,6 +10,7 @@ mod filter;
 mod gate;
 mod gyro;
 mod planar;
+mod pooled;
 mod sighted_turn;
 mod svsf;
 mod visual;
