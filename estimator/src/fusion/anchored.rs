@@ -90,15 +90,15 @@ impl<G: Gain> Anchored<G> {
             true => self.filter.update_pose(&measured),
             false => self.filter.update_pose_from(&self.by_wheels, &self.by_frames.take(&measured)),
         });
-        // What was kept out may turn out to be true: with the old keyframe nothing of it is lost by then.
         let is_gated = outcome == Some(Outcome::Gated);
-        let is_kept_out = is_gated || (measured.is_some() && self.by_frames.is_contradicted());
+        let is_left_out = measured.is_some() && self.by_frames.is_contradicted();
         if is_gated {
-            // Or false: later frames need not agree with it.
+            // Later frames need not agree with what was not believed.
             self.by_frames = Pooled::default();
         }
-        let may_anchor = !is_kept_out && !(stays && self.keyframe.is_some());
-        if frame.keyframe && may_anchor {
+        // What was kept out may turn out to be true: with the old keyframe nothing of it is lost by then.
+        let must_stay = is_gated || is_left_out || (stays && self.keyframe.is_some());
+        if frame.keyframe && !must_stay {
             self.keyframe = Some(*frame);
             let gone = with_shared_error(self.filter.estimate(), frame.shared_sigma);
             self.odom_from_keyframe = self.odom_from_keyframe.compose(&gone);

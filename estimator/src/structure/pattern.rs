@@ -67,6 +67,6 @@ impl Pattern {
         // 32 bits are a single instruction where 64 are many.
         let x = (column + MARGIN) as u32 as f32 - disparity;
         let left = x as i32;
-        (x >= 0.0 && x < (self.width - 1) as u32 as f32).then(|| (left as usize, x - left as f32))
+        (x >= 0.0 && x < (self.width - 1) as u32 as f32).then_some((left as usize, x - left as f32))
     }
 }
