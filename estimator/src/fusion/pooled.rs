@@ -8,7 +8,7 @@ use nalgebra::Matrix3;
 
 use super::planar::{UncertainPose, symmetric};
 
-/// Share of a motion's variance that is its frame's own.
+/// Share of a motion's variance that is its frame's own. A guess where most of it is calibration's, which is all shared.
 const OWN_SHARE: f64 = 0.5;
 /// Largest squared Mahalanobis distance between a frame and those before it, χ² of 99 %. Beyond it one of the two is wrong.
 const CONTRADICTION: f64 = 11.34;
