@@ -1,7 +1,7 @@
 //! Wheels and visual odometry together (paper A, §5): `wheel_odometry` (with `arc` and `gyro`) carries the pose on,
 //! the motion since a keyframe (`visual`, of all its frames `pooled`) corrects it, in an `ekf` and in an `svsf` side by
-//! side, which share `filter` and `gate` and stand on the keyframe's pose (`anchored`). What was seen of a turn teaches the gyro its bias
-//! (`sighted_turn`).
+//! side, which share `filter` and `gate` and stand on the keyframe's pose (`anchored`). What was seen of a turn teaches
+//! the gyro its bias (`sighted_turn`).
 
 mod anchored;
 mod arc;
