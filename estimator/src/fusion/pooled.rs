@@ -74,11 +74,11 @@ impl Pooled {
     pub fn take(&mut self, measured: &UncertainPose) -> UncertainPose {
         let newest = Sight::of(measured);
         let joined = self.sight.map_or(Some(newest), |sight| sight.joined(&newest));
-        let (before, was_contradicted) = (self.sight.unwrap_or(newest), self.is_contradicted);
-        self.is_contradicted = joined.is_none() && !was_contradicted;
-        let sight = joined.unwrap_or(if was_contradicted { newest } else { before });
-        self.sight = Some(sight);
-        sight.measurement()
+        self.is_contradicted = joined.is_none() && !self.is_contradicted;
+        if !self.is_contradicted {
+            self.sight = Some(joined.unwrap_or(newest));
+        }
+        self.sight.unwrap_or(newest).measurement()
     }
 
     /// Whether the newest frame was left out.

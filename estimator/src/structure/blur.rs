@@ -13,28 +13,21 @@ pub(super) fn blur(image: &Image<f32>, reach: usize, passes: usize) -> Image<f32
     let mut next = Image::filled(width, height, 0.0);
     for _ in 0..passes {
         let (from, to) = (current.pixels().chunks(ABREAST * width), next.pixels_mut().chunks_mut(ABREAST * width));
-        for (from, to) in from.zip(to) {
-            if from.len() == ABREAST * width {
-                along_rows::<ABREAST>(from, to, reach);
-            } else {
-                from.chunks(width).zip(to.chunks_mut(width)).for_each(|(from, to)| along_rows::<1>(from, to, reach));
-            }
-        }
+        from.zip(to).for_each(|(from, to)| along_rows(from, to, width, reach));
         down_columns(next.pixels(), current.pixels_mut(), width, reach);
     }
     current
 }
 
-/// One box filter along each of `ROWS` rows.
-fn along_rows<const ROWS: usize>(from: &[f32], to: &mut [f32], reach: usize) {
-    let width = from.len() / ROWS;
+/// One box filter along each of up to [`ABREAST`] rows.
+fn along_rows(from: &[f32], to: &mut [f32], width: usize, reach: usize) {
     let weight = 1.0 / (2 * reach + 1) as f32;
     // Pixels of one column next to each other, with nothing on either side.
-    let mut columns = vec![[0.0_f32; ROWS]; width + 2 * reach];
+    let mut columns = vec![[0.0_f32; ABREAST]; width + 2 * reach];
     for (row, from) in from.chunks_exact(width).enumerate() {
         columns[reach..].iter_mut().zip(from).for_each(|(column, &value)| column[row] = value);
     }
-    let mut sums = [0.0_f32; ROWS];
+    let mut sums = [0.0_f32; ABREAST];
     columns[..2 * reach].iter().for_each(|column| add(&mut sums, column));
     for x in 0..width {
         add(&mut sums, &columns[x + 2 * reach]);
