@@ -46,7 +46,7 @@ impl FrameView {
 const LEAST_FILLED: f64 = 0.3;
 
 /// By day all pixels are asked where there is next to nothing but a bare wall. A guess.
-const BARE_SHARE: f64 = 0.2;
+const BARE_SHARE: f64 = 0.4;
 
 /// Levels of shade that brightness grows by when it grows e-fold: a change of exposure is the same offset everywhere, and
 /// a tenth more is well above noise.
